@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_command_line_h
+#define perideal_application_command_line_h
+
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// What the user typed.
+  struct CommandLine
+  {
+    enum class Action
+    {
+      run,
+      check,
+      print_parameters,
+      help,
+      version
+    };
+    Action      action = Action::run;
+    std::string scene_file;
+    /// Texts of --set.
+    std::vector<std::string> overrides;
+    /// Format of --parameters.
+    std::string format = "text";
+    /// The whole command, for summary.json.
+    std::string command;
+
+    /// @throws InputError on anything not understood.
+    static CommandLine parse(const int argc, const char *const *argv);
+
+    static std::string help();
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_comparison_h
+#define perideal_application_comparison_h
+
+#include <perideal/application/scene_parameters.h>
+#include <perideal/application/scene_state.h>
+#include <perideal/base/timing.h>
+
+#include <nlohmann/json.hpp>
+
+namespace perideal
+{
+  /// Q1 finite elements on the scene's own mesh, timed as "fem: ...".
+  /// Appends to @p report what the solver did. Collective.
+  template <int dim>
+  NodalField<dim> solve_fem(const SceneState<dim>  &scene,
+                            const double            time,
+                            const double            tolerance,
+                            Timings                &timings,
+                            nlohmann::ordered_json &report);
+
+  /// Q2 finite elements on the refined mesh, at the nodes. Collective.
+  template <int dim>
+  NodalField<dim> solve_reference(const SceneState<dim> &scene,
+                                  const unsigned int     refinements,
+                                  const double           time,
+                                  Timings               &timings);
+
+  /// The exact solution at the nodes.
+  template <int dim>
+  NodalField<dim> evaluate_exact(const SceneState<dim> &scene, const ComparisonParameters &parameters, const double time);
+
+  /**
+   * Errors of the displacement against every comparison of the scene, and of
+   * the finite elements against reference and exact solution, in the form of
+   * summary.json; writes profile_NAME.csv into the output directory. Collective.
+   */
+  template <int dim>
+  nlohmann::ordered_json compare(const SceneState<dim>          &scene,
+                                 const std::vector<std::string> &profiles,
+                                 const std::string              &output_directory);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_output_fields_h
+#define perideal_application_output_fields_h
+
+#include <perideal/application/scene_state.h>
+#include <perideal/output/field_output.h>
+
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Names that Output/Fields accepts.
+  std::vector<std::string> output_field_names();
+
+  /// Adds the named fields to the next output; solutions of a comparison that
+  /// the scene does not make are left out.
+  template <int dim>
+  void add_output_fields(const SceneState<dim>          &scene,
+                         const std::vector<std::string> &names,
+                         FieldOutput<dim>               &output);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_report_h
+#define perideal_application_report_h
+
+#include <perideal/application/scene_parameters.h>
+#include <perideal/application/scene_state.h>
+
+#include <nlohmann/json.hpp>
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// The parts of summary.json that describe the discretisation: mesh, nodes,
+  /// bonds, neighbours, model. Collective.
+  template <int dim>
+  nlohmann::ordered_json describe_discretisation(const SceneParameters &parameters, const SceneState<dim> &scene);
+
+  /// What the scene does not need, by name, with the amount saved.
+  template <int dim>
+  nlohmann::ordered_json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene);
+
+  /// Lines that say what will be done. Collective.
+  template <int dim>
+  std::string banner(const SceneParameters &parameters, const SceneState<dim> &scene);
+
+  /// Advice on what is likely to spoil the result, one line each. Collective.
+  template <int dim>
+  std::vector<std::string> warnings(const SceneParameters &parameters, const SceneState<dim> &scene);
+
+  /// Table of seconds by phase.
+  std::string timing_table(const std::map<std::string, double> &seconds);
+
+  /// Table of errors from the "errors" part of summary.json.
+  std::string error_table(const nlohmann::ordered_json &errors);
+
+  /// Prints the progress of a solve on one line, at most once a second.
+  class ProgressLine
+  {
+  public:
+    ProgressLine(std::ostream &out, const bool is_visible, const std::string &what, const double tolerance);
+    ~ProgressLine();
+
+    /// The time left follows from the mean reduction of the residual so far.
+    void operator()(const unsigned int iteration, const double residual);
+
+  private:
+    std::ostream &out;
+    bool          is_visible;
+    std::string   what;
+    double        tolerance;
+    double        start, last_print;
+    bool          printed = false;
+  };
+} // namespace perideal
+
+#endif

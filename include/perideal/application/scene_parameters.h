@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_scene_parameters_h
+#define perideal_application_scene_parameters_h
+
+#include <perideal/materials/models.h>
+#include <perideal/mesh/mesh_parameters.h>
+#include <perideal/nodes/nodes.h>
+#include <perideal/parameters/load_parameters.h>
+#include <perideal/parameters/material_parameters.h>
+#include <perideal/parameters/parameter_file.h>
+#include <perideal/solvers/linear_solver.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Section "Comparison": what the solution is held against.
+  struct ComparisonParameters
+  {
+    /// Q1 finite elements on the same mesh.
+    bool fem = false;
+    /// Q2 finite elements on the refined mesh.
+    bool reference = false;
+    /// Refinements of the reference's mesh.
+    unsigned int reference_refinements = 1;
+    /// Boundaries along which profiles are written.
+    std::vector<std::string> profiles;
+    /// Exact displacement by component, formulas in x, y, z, t; empty: none.
+    std::array<std::string, 3> exact;
+
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Everything a `.prm` file can say.
+  struct SceneParameters
+  {
+    int                  dimension        = 2;
+    std::string          output_directory = "output";
+    std::string          fields           = "displacement";
+    MeshParameters       mesh;
+    NodeParameters       nodes;
+    ModelParameters      model;
+    MaterialParameters   material;
+    SolverParameters     solver;
+    LoadParameters       loads;
+    ComparisonParameters comparison;
+
+    /// Declares all parameters, reads the values and checks their ranges.
+    /// The blocks are bound to @p prm: this object must stay where it is.
+    /// @throws InputError naming file, line and parameter.
+    void read(const ParameterFile &file, dealii::ParameterHandler &prm);
+
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    /// Fields to write, in the order given.
+    std::vector<std::string> field_names() const;
+  };
+
+  /// Prints every parameter with default, range and meaning.
+  /// @param format text | prm | markdown
+  /// @throws InputError on another format.
+  void print_parameters(std::ostream &out, const std::string &format);
+} // namespace perideal
+
+#endif

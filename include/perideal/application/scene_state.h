@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_scene_state_h
+#define perideal_application_scene_state_h
+
+#include <perideal/boundary/boundary_faces.h>
+#include <perideal/boundary/held_nodes.h>
+#include <perideal/boundary/mirror_layer.h>
+#include <perideal/fem/elastic_fem.h>
+#include <perideal/mesh/mesh.h>
+#include <perideal/neighbourhood/families.h>
+#include <perideal/nodes/nodes.h>
+#include <perideal/operators/constrained_operator.h>
+#include <perideal/operators/null_space.h>
+#include <perideal/solvers/linear_solver.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// A displacement at this rank's nodes [m].
+  template <int dim>
+  using NodalField = std::vector<dealii::Tensor<1, dim>>;
+
+  /**
+   * The parts of a scene as they come into being: each step of the simulation
+   * adds its own and uses the earlier ones.
+   */
+  template <int dim>
+  struct SceneState
+  {
+    std::unique_ptr<Mesh<dim>>                           mesh;
+    Loads<dim>                                           loads;
+    std::vector<std::vector<dealii::types::boundary_id>> condition_boundaries;
+    ConstantsByMaterial                                  constants;
+
+    std::unique_ptr<Nodes<dim>>             nodes;
+    std::vector<BoundaryFace<dim>>          faces;
+    HeldNodes<dim>                          held;
+    std::shared_ptr<MirrorLayer<dim>>       mirror;
+    std::shared_ptr<const Families<dim>>    families;
+
+    std::shared_ptr<BondOperator<dim>>        bonds;
+    std::unique_ptr<ConstrainedOperator<dim>> system;
+    NullSpace<dim>                            null_space;
+    std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
+    std::unique_ptr<LinearSolver<dim>>        linear_solver;
+
+    /// Displacement of the nodes after the last step, rigid-body motions removed.
+    NodalField<dim> displacement;
+    /// Solutions it is held against, by name: "fem", "reference", "exact".
+    std::map<std::string, NodalField<dim>> comparisons;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_application_simulation_h
+#define perideal_application_simulation_h
+
+#include <perideal/application/scene_parameters.h>
+#include <perideal/application/scene_state.h>
+#include <perideal/base/timing.h>
+#include <perideal/output/field_output.h>
+#include <perideal/output/history.h>
+
+#include <deal.II/base/conditional_ostream.h>
+
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+
+namespace perideal
+{
+  /// What a run is told besides its parameters.
+  struct RunContext
+  {
+    /// The command as typed, for summary.json.
+    std::string command;
+    /// Directory of the `.prm` file, where relative mesh files may lie.
+    std::string scene_directory;
+    /// Every parameter as used, for summary.json.
+    nlohmann::ordered_json parameters;
+  };
+
+  /**
+   * Puts the parts of a scene together and runs it: mesh, nodes, families,
+   * weights, solve, compare, write.
+   */
+  template <int dim>
+  class Simulation
+  {
+  public:
+    /// The parameters must outlive this object.
+    Simulation(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator);
+
+    /// Runs the scene. Collective.
+    /// @throws InputError, ComputationError; what was computed by then is on disk.
+    void run();
+
+    /// Reads, meshes, counts and warns; solves nothing. Collective.
+    void check();
+
+  private:
+    void make_mesh();
+    void make_nodes_and_families();
+    void find_free_motions();
+    void prepare_comparisons();
+    void weigh_bonds();
+    void set_up_solver();
+    void step(const unsigned int number);
+    void solve_equilibrium(const double time, NodalVector &displacement);
+    void store_displacement();
+    void record_step(const unsigned int number, const double time, const NodalVector &displacement);
+    void write_fields(const unsigned int number, const double time);
+    void compare_at_end(const double time);
+    void finish(const std::string &status);
+
+    /// The material of a cell group.
+    const MaterialProperties &properties_of(const dealii::types::material_id id) const;
+
+    const SceneParameters  &parameters;
+    const RunContext        context;
+    MPI_Comm                communicator;
+    dealii::ConditionalOStream screen;
+    Timings                 timings;
+    SceneState<dim>         scene;
+    NodalVector             displacement, external_force;
+
+    std::unique_ptr<History>          history;
+    std::unique_ptr<FieldOutput<dim>> field_output;
+    nlohmann::ordered_json            summary;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_boundary_mirror_layer_h
+#define perideal_boundary_mirror_layer_h
+
+#include <perideal/boundary/boundary_faces.h>
+
+#include <array>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Fictitious nodes behind plane boundaries with prescribed displacement: the
+   * mirror images of the nodes within two horizons of the plane, so that the
+   * families of real nodes are complete. With the prescribed value g at the
+   * foot point on the plane, an image moves by
+   *
+   *     u_c(image) = 2 g_c - u_c(node)   where component c is prescribed,
+   *     u_c(image) = u_c(node)           where it is free.
+   *
+   * Images of images fill the corners between planes.
+   */
+  template <int dim>
+  class MirrorLayer
+  {
+  public:
+    /// No fictitious nodes: nodes() is a copy of the real ones.
+    explicit MirrorLayer(const NodeCloud<dim> &real);
+
+    /// @throws InputError when a boundary with prescribed displacement is not
+    ///   plane, or not along the axes while some components are free. Collective.
+    MirrorLayer(const Mesh<dim>                                            &mesh,
+                const NodeCloud<dim>                                       &real,
+                const std::vector<BoundaryFace<dim>>                       &faces,
+                const Loads<dim>                                           &loads,
+                const std::vector<std::vector<dealii::types::boundary_id>> &boundaries);
+
+    /// Real nodes first, then the fictitious ones of this rank.
+    const NodeCloud<dim> &nodes() const { return all; }
+    LocalIndex            n_real() const { return n_real_nodes; }
+    LocalIndex            n_fictitious() const { return all.size() - n_real_nodes; }
+
+    /// False when the images break the symmetry of a symmetric operator: the
+    /// prescribed components of a plane are neither the normal one alone nor
+    /// all tangential ones.
+    bool keeps_symmetry() const { return symmetric; }
+
+    /// Displacement of all nodes from that of the real ones.
+    /// @param with_values false: the linear part alone, all prescribed values zero.
+    void extend(const NodalVector &real, const bool with_values, NodalVector &extended) const;
+
+    /// Evaluates the prescribed values at @p time.
+    void set_time(const Loads<dim> &loads, const double time);
+
+    /// Sum by condition of a force on all nodes over the fictitious ones [N]. Collective.
+    std::vector<dealii::Tensor<1, dim>> sum_by_condition(const NodalVector &force) const;
+
+    /// Work that a force on all nodes does on the prescribed values of the
+    /// mirrors: an image's force acts on the boundary, which moves by half the
+    /// image's offset [J]. Collective.
+    double prescribed_work(const NodalVector &force) const;
+
+  private:
+    /// An image: u = sign u(source) + offset, the offset a sum of prescribed values.
+    struct Image
+    {
+      LocalIndex             source;
+      dealii::Tensor<1, dim> sign, offset;
+      /// Image of this earlier image, or of a real node if equal to source.
+      LocalIndex         parent;
+      unsigned int       plane;
+      dealii::Point<dim> foot;
+    };
+    struct Plane
+    {
+      dealii::types::boundary_id boundary;
+      dealii::Point<dim>         point, lower, upper;
+      dealii::Tensor<1, dim>     normal;
+      /// Condition that prescribes each component, or -1.
+      std::array<int, dim> condition;
+    };
+
+    Plane make_plane(const Mesh<dim>                                            &mesh,
+                     const std::vector<BoundaryFace<dim>>                       &faces,
+                     const dealii::types::boundary_id                            boundary) const;
+    void  add_images(const Plane &plane, const unsigned int plane_number);
+
+    NodeCloud<dim>     all;
+    LocalIndex         n_real_nodes;
+    std::vector<Image> images;
+    std::vector<Plane> planes;
+    unsigned int       n_conditions = 0;
+    bool               symmetric    = true;
+  };
+} // namespace perideal
+
+#endif

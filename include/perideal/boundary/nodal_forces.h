@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_boundary_nodal_forces_h
+#define perideal_boundary_nodal_forces_h
+
+#include <perideal/boundary/boundary_faces.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * External forces on the nodes [N]: body force times volume, and the traction
+   * on each boundary face times its area, carried by the node of its cell (a
+   * body force in the outer layer).
+   * @param force over owned nodes, overwritten
+   */
+  template <int dim>
+  void compute_nodal_forces(const Nodes<dim>                                           &nodes,
+                            const std::vector<BoundaryFace<dim>>                       &faces,
+                            const Loads<dim>                                           &loads,
+                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                            const double                                                time,
+                            NodalVector                                                &force);
+} // namespace perideal
+
+#endif

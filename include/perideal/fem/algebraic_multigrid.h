@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_fem_algebraic_multigrid_h
+#define perideal_fem_algebraic_multigrid_h
+
+#include <perideal/base/types.h>
+#include <perideal/fem/elastic_fem.h>
+
+#include <memory>
+
+namespace perideal
+{
+  /**
+   * One cycle of smoothed-aggregation multigrid (Trilinos ML) on an elasticity
+   * matrix, with all rigid-body motions as near-null space.
+   */
+  template <int dim>
+  class AlgebraicMultigrid
+  {
+  public:
+    /// @param fem an assembled problem, which must outlive this object
+    /// @param smooth_finest false: no smoother on the finest level, for use as the
+    ///   coarse part of an auxiliary-space preconditioner, whose own smoother does that work.
+    AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest);
+    ~AlgebraicMultigrid();
+
+    /// Approximates the inverse of the matrix applied to @p source. The vectors
+    /// are distributed like the rows of the matrix; ghosts are neither used nor set.
+    void vmult(NodalVector &destination, const NodalVector &source) const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace perideal
+
+#endif

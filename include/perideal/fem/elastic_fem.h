@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_fem_elastic_fem_h
+#define perideal_fem_elastic_fem_h
+
+#include <perideal/base/types.h>
+#include <perideal/fem/cell_integrals.h>
+#include <perideal/mesh/mesh.h>
+#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/load_parameters.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  template <int dim>
+  class AlgebraicMultigrid;
+
+  /// Elastic constants by material id; every id of the mesh is listed.
+  using ConstantsByMaterial = std::map<dealii::types::material_id, ElasticConstants>;
+
+  /**
+   * deal.II's continuous finite elements for linear elasticity on the mesh of a
+   * scene: the comparison (Q1), the converged reference (refined, Q2), and the
+   * matrix behind the auxiliary-space preconditioner.
+   */
+  template <int dim>
+  class ElasticFem
+  {
+  public:
+    /// Degree-one elements on the mesh itself, or elements of degree 1 or 2
+    /// (with a mapping of that degree, so that curved boundaries count) on a
+    /// copy of the mesh refined globally @p refinements times. The mesh and the
+    /// loads must outlive this object.
+    /// @throws InputError when a condition names a boundary the mesh has not.
+    ElasticFem(const Mesh<dim>    &mesh,
+               const Loads<dim>   &loads,
+               const unsigned int  degree      = 1,
+               const unsigned int  refinements = 0);
+    ~ElasticFem();
+
+    /// Distributes unknowns, sets Dirichlet and hanging-node rows at @p time,
+    /// assembles matrix and right-hand side. Where the conditions leave a
+    /// rigid-body motion free, as many vertex components are pinned to zero;
+    /// removing the motion from the result is the caller's business. Collective.
+    void assemble(const ConstantsByMaterial &constants, const double time);
+
+    /// Sets up the multigrid preconditioner of solve(), which does so itself
+    /// when it was not done. Collective.
+    void set_up_solver();
+
+    /// CG with AMG, to a residual of @p tolerance times the right-hand side.
+    /// Returns the number of iterations. Collective.
+    /// @throws ComputationError when the solver does not converge.
+    unsigned int solve(const double tolerance);
+
+    /// Displacement [m] at any points (each rank asks for its own); collective.
+    /// A point up to a tenth of a cell outside the body (rounding, curved
+    /// boundaries) gets the value of the nearest cell's polynomial there.
+    /// @throws ComputationError naming a point farther out.
+    std::vector<dealii::Tensor<1, dim>> evaluate(const std::vector<dealii::Point<dim>> &points) const;
+
+    /// Displacement [m] at one point of each locally owned cell, both indexed by
+    /// active_cell_index() of the mesh given to the constructor; entries of other
+    /// cells are ignored and zero. The fast way to the peridynamic nodes; only
+    /// for elements on that mesh itself.
+    std::vector<dealii::Tensor<1, dim>>
+    evaluate_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const;
+
+    /// Force [N] that the supports exert on the body through a boundary: the
+    /// residual of the free body, summed over the held displacement components
+    /// on it. An edge shared by two boundaries counts for both. Collective.
+    dealii::Tensor<1, dim> reaction(const dealii::types::boundary_id boundary) const;
+
+    /// Active cells of all ranks.
+    dealii::types::global_cell_index n_cells() const;
+    /// Unknowns of all ranks.
+    dealii::types::global_dof_index n_dofs() const { return unknowns.n_dofs(); }
+    /// Components pinned to zero because nothing holds the body there.
+    unsigned int n_pins() const { return pins; }
+
+    const dealii::MappingQ<dim>                  &mapping() const { return geometry; }
+    const dealii::DoFHandler<dim>                &dof_handler() const { return unknowns; }
+    const dealii::AffineConstraints<double>      &constraints() const { return held; }
+    const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return stiffness; }
+    /// Displacement, constraints distributed, ghosts up to date.
+    const NodalVector &solution() const { return displacement; }
+
+  private:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
+    void make_constraints();
+    void make_sparsity();
+
+    /// Stiffness matrix [N/m] and nodal forces [N] of one cell, nothing held.
+    void cell_system(const Cell                 &cell,
+                     CellIntegrals<dim>         &integrals,
+                     dealii::FullMatrix<double> &matrix,
+                     dealii::Vector<double>     &forces) const;
+
+    const Mesh<dim>  &mesh;
+    const Loads<dim> &loads;
+    /// Conditions with a traction or pressure, by the boundary they act on.
+    std::multimap<dealii::types::boundary_id, const BoundaryCondition<dim> *> tractions;
+    bool                                                                      has_body_force;
+
+    /// The refined copy of the mesh, where there is one.
+    std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> refined;
+    dealii::MappingQ<dim>                                              geometry;
+    dealii::FESystem<dim>                                              element;
+    dealii::DoFHandler<dim>                                            unknowns;
+    dealii::IndexSet                                                   relevant;
+    dealii::AffineConstraints<double>                                  held;
+    dealii::TrilinosWrappers::SparseMatrix                             stiffness;
+    NodalVector                                                        right_hand_side, displacement;
+    std::unique_ptr<AlgebraicMultigrid<dim>>                           preconditioner;
+
+    /// As of the last assembly.
+    ConstantsByMaterial constants;
+    double              time = 0;
+    unsigned int        pins = 0;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_materials_linear_model_h
+#define perideal_materials_linear_model_h
+
+#include <perideal/neighbourhood/families.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * One family as a material sees it. Arrays run over its members.
+   */
+  template <int dim>
+  struct FamilyView
+  {
+    /// Number of members.
+    LocalIndex size = 0;
+    /// Components of the bonds xi = x_j - x_i [m].
+    std::array<std::vector<double>, dim> bond;
+    /// |xi|^2 [m^2].
+    std::vector<double> length_square;
+    /// Volumes of the members V_j [m^3].
+    std::vector<double> volume;
+    /// The larger horizon of the bond's ends [m].
+    std::vector<double> bond_horizon;
+
+    /// The node's own volume [m^3] and horizon [m].
+    double node_volume = 0, horizon = 0;
+    /// The node's bulk modulus (of the problem's dimension) and shear modulus [Pa].
+    double bulk_modulus = 0, shear_modulus = 0;
+
+    /// Looks at the family of owned node @p i; the moduli are the caller's to set.
+    void reinit(const Families<dim> &families, const LocalIndex i);
+  };
+
+  /// How many sums over its family a model needs before it knows bond forces,
+  /// and whether its forces are weighted as its sums are.
+  struct FamilyShape
+  {
+    unsigned int n_sums            = 0;
+    bool         own_force_weights = false;
+  };
+
+  /// What became of a family's weights.
+  struct FamilyReport
+  {
+    /// Weights were replaced because the wanted ones do not exist or are unusable.
+    bool fallback = false;
+    /// A moment condition is missed: uniform strain is not met exactly.
+    bool singular = false;
+    /// The multipliers made a deviatoric weight negative: W may be indefinite as it stands.
+    bool indefinite = false;
+  };
+
+  /**
+   * The share of one family in the linear bond operator. With the bond's
+   * eps = xi.(u_j - u_i), the family's sums and states are
+   *
+   *     s_a = sum_j sum[a]_j eps_j,     A = map s   (a, b < n_sums)
+   *
+   * and node i feels, and every member j opposes,
+   *
+   *     F = ( sum_a weight[a]_j A_a + stiffness_j eps_j ) xi_j.
+   *
+   * weight is force_weight where the shape has own force weights, else sum.
+   */
+  struct FamilyCoefficients
+  {
+    std::array<std::vector<double>, 2> sum;
+    std::array<std::vector<double>, 2> force_weight;
+    std::vector<double>                stiffness;
+    /// Entries (0,0), (0,1) = (1,0), (1,1) of the map.
+    std::array<double, 3> map = {};
+    FamilyReport          report;
+
+    void resize(const LocalIndex n, const FamilyShape &shape);
+  };
+
+  /**
+   * A small-strain peridynamic material. It knows one family at a time and
+   * nothing of loops, ranks or files.
+   */
+  template <int dim>
+  class LinearModel
+  {
+  public:
+    virtual ~LinearModel() = default;
+
+    virtual FamilyShape shape() const = 0;
+
+    /// True when the operator of this model is symmetric.
+    virtual bool is_symmetric() const = 0;
+
+    /// Fills the coefficients of one family; they are resized by the caller.
+    virtual void compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) = 0;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_mesh_create_mesh_h
+#define perideal_mesh_create_mesh_h
+
+#include <perideal/mesh/mesh.h>
+#include <perideal/mesh/mesh_parameters.h>
+
+#include <memory>
+#include <string>
+
+namespace perideal
+{
+  /**
+   * Reads or generates the mesh, checks it (serially, before p4est sees it),
+   * refines and distributes it. Collective; only the first rank reads the file.
+   *
+   * @param scene_directory relative mesh files are looked up from the working
+   *   directory first, then from here.
+   * @throws InputError naming the file, the parameter or the cell.
+   */
+  template <int dim>
+  std::unique_ptr<Mesh<dim>> create_mesh(const MeshParameters &parameters, MPI_Comm communicator,
+                                         const std::string &scene_directory);
+
+  /**
+   * Fills @p copy with the coarse mesh below @p mesh, with its boundary and
+   * material ids and curved boundaries, and refines it globally as often as
+   * the mesh itself and @p further_refinements times more. The copy may be
+   * serial or distributed on any communicator; collective on the latter.
+   */
+  template <int dim>
+  void copy_refined(const Mesh<dim> &mesh, const unsigned int further_refinements,
+                    dealii::Triangulation<dim> &copy);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_mesh_mesh_h
+#define perideal_mesh_mesh_h
+
+#include <deal.II/distributed/tria.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Boundaries that are circular cylinders about an axis in z (circles in
+  /// 2-D), with the axis point (x, y) [m].
+  using Cylinders = std::map<dealii::types::boundary_id, dealii::Point<2>>;
+
+  /// The user's mesh: a p4est-distributed triangulation and the names of its groups.
+  template <int dim>
+  class Mesh
+  {
+  public:
+    explicit Mesh(MPI_Comm communicator);
+
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+
+    /// Gmsh physical name -> boundary id. Built-in generators name theirs too.
+    std::map<std::string, dealii::types::boundary_id> boundary_names;
+    /// Gmsh physical name -> material id.
+    std::map<std::string, dealii::types::material_id> material_names;
+    /// Boundary ids that occur on the whole mesh, named or not.
+    std::set<dealii::types::boundary_id> boundary_ids;
+    /// Material ids that occur on the whole mesh, named or not.
+    std::set<dealii::types::material_id> material_ids;
+    /// Curved boundaries, which refinement follows.
+    Cylinders cylinders;
+    /// Global refinements between the coarse mesh and the triangulation.
+    unsigned int refinements = 0;
+    /// Thickness of a two-dimensional body [m]; 1 in 3-D.
+    double thickness = 1.;
+    /// One line for the banner: where the mesh comes from and its cells.
+    std::string description;
+
+    /// Boundary id of a physical name or of a number.
+    /// @param parameter path of the parameter that names it, for messages.
+    /// @throws InputError when the mesh has no such boundary; lists those it has.
+    dealii::types::boundary_id boundary_id(const std::string &name_or_id, const std::string &parameter) const;
+
+    /// As boundary_id(), for cell groups.
+    dealii::types::material_id material_id(const std::string &name_or_id, const std::string &parameter) const;
+
+    /// Name of a boundary id, or its number as text where it has none.
+    std::string boundary_name(const dealii::types::boundary_id id) const;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_mesh_mesh_file_h
+#define perideal_mesh_mesh_file_h
+
+#include <mpi.h>
+
+#include <string>
+
+namespace perideal
+{
+  /// A mesh file found and read.
+  struct MeshFile
+  {
+    /// Path under which it was found.
+    std::string path;
+    /// Its text in Gmsh's `.msh` format.
+    std::string text;
+  };
+
+  /**
+   * Finds a mesh file (from the working directory, then from
+   * @p scene_directory), meshes it if it is a `.geo`, and reads it. The first
+   * rank does so, the others receive the text. Collective.
+   *
+   * @param dim dimension in which a `.geo` is meshed
+   * @throws InputError on all ranks alike.
+   */
+  MeshFile load_mesh_file(const std::string &filename, const std::string &scene_directory, const int dim,
+                          MPI_Comm communicator);
+
+  /// Runs the program gmsh on a `.geo` file and returns the mesh as `.msh` text.
+  /// @throws InputError with gmsh's first error where it is missing or fails.
+  std::string run_gmsh(const std::string &geo_file, const int dim);
+} // namespace perideal
+
+#endif

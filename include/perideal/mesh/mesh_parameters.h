@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_mesh_mesh_parameters_h
+#define perideal_mesh_mesh_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Section "Mesh".
+  struct MeshParameters
+  {
+    /// A `.msh` (2.2 or 4.1, ASCII) or a `.geo` file; empty: use the generator.
+    std::string file;
+    /// Name of the built-in generator; empty: use the file.
+    std::string generator;
+    /// Cell counts of the generator, their meaning is the generator's; empty: its default.
+    std::vector<unsigned int> cells;
+    /// Lengths of the generator's geometry [m]; empty: its default.
+    std::vector<double> size;
+    /// Radius of the generator's hole [m].
+    double hole_radius = 0.1;
+    /// Growth of the cell size over a graded block, from the hole outwards [-].
+    double grading = 6.;
+    /// Uniform p4est refinements.
+    unsigned int refinements = 0;
+    /// Thickness of a two-dimensional body [m].
+    double thickness = 1.;
+    /// Boundaries of a mesh file that are circular cylinders about an axis in
+    /// z, by name or id, with the axis point (x, y) [m].
+    std::map<std::string, dealii::Point<2>> cylinders;
+
+    void declare(dealii::ParameterHandler &prm);
+
+    /// @throws InputError on values that no mesh can be made from.
+    void check() const;
+  };
+} // namespace perideal
+
+#endif

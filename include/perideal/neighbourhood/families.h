@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_neighbourhood_families_h
+#define perideal_neighbourhood_families_h
+
+#include <perideal/nodes/nodes.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The families of the nodes of this rank by the union rule: j belongs to the
+   * family of i when |x_j - x_i| <= max(horizon_i, horizon_j), so that every
+   * bond has two ends (XOSB eq. 71).
+   *
+   * Local numbers: owned nodes first, as in the cloud, then ghosts, the nodes of
+   * other ranks that share a bond with an owned one, by ascending global number.
+   */
+  template <int dim>
+  class Families
+  {
+  public:
+    /// Exchanges the halo and searches. Collective.
+    explicit Families(const NodeCloud<dim> &nodes);
+
+    LocalIndex n_owned() const { return n_owned_nodes; }
+    LocalIndex n_local() const { return static_cast<LocalIndex>(position.size()); }
+
+    /// Neighbours of an owned node, ascending: [begin(i), end(i)).
+    const LocalIndex *begin(const LocalIndex i) const { return neighbour.data() + row[i]; }
+    const LocalIndex *end(const LocalIndex i) const { return neighbour.data() + row[i + 1]; }
+    LocalIndex        size(const LocalIndex i) const { return static_cast<LocalIndex>(row[i + 1] - row[i]); }
+
+    /// Number of undirected bonds of all ranks. Collective.
+    GlobalIndex n_bonds() const;
+
+    struct Statistics
+    {
+      LocalIndex min = 0, max = 0;
+      double     mean = 0;
+    };
+    /// Family sizes over all ranks. Collective.
+    Statistics statistics() const;
+
+    /// Global number of a local node.
+    GlobalIndex global_number(const LocalIndex i) const
+    {
+      return i < n_owned_nodes ? first_global + i : ghost_number[i - n_owned_nodes];
+    }
+
+    /// Layout of a field with @p n_components values a node; ghosts as here.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+    make_partitioner(const unsigned int n_components) const;
+
+    /// Bytes held on this rank.
+    std::size_t memory_consumption() const;
+
+    /// Positions [m], volumes [m^3], horizons [m], materials of local nodes, ghosts included.
+    std::vector<dealii::Point<dim>>         position;
+    std::vector<double>                     volume;
+    std::vector<double>                     horizon;
+    std::vector<dealii::types::material_id> material;
+
+    /// Global numbers of the ghosts, ascending, and the rank that owns each.
+    std::vector<GlobalIndex>  ghost_number;
+    std::vector<unsigned int> ghost_owner;
+
+    MPI_Comm communicator;
+
+  private:
+    void search(const NodeCloud<dim> &nodes);
+    void drop_unused_ghosts();
+
+    LocalIndex              n_owned_nodes;
+    GlobalIndex             first_global, n_global;
+    std::vector<BondIndex>  row;
+    std::vector<LocalIndex> neighbour;
+  };
+} // namespace perideal
+
+#endif

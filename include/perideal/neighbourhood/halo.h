@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_neighbourhood_halo_h
+#define perideal_neighbourhood_halo_h
+
+#include <perideal/neighbourhood/point_tree.h>
+#include <perideal/nodes/nodes.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /// What one rank tells another about one of its nodes.
+  template <int dim>
+  struct HaloNode
+  {
+    GlobalIndex                number;
+    unsigned int               owner;
+    dealii::Point<dim>         position;
+    double                     volume, horizon;
+    dealii::types::material_id material;
+  };
+
+  /**
+   * Nodes of other ranks that may share a bond with an owned one, ascending by
+   * global number. Any width of halo: ranks tell each other boxes around their
+   * nodes and send what lies within the larger horizon of a box. Collective.
+   */
+  template <int dim>
+  std::vector<HaloNode<dim>> exchange_halo(const NodeCloud<dim> &nodes, const PointTree<dim> &tree);
+} // namespace perideal
+
+#endif

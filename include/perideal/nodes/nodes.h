@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_nodes_nodes_h
+#define perideal_nodes_nodes_h
+
+#include <perideal/base/types.h>
+#include <perideal/mesh/mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /// Section "Nodes".
+  struct NodeParameters
+  {
+    /// Horizon of a node over its spacing [-].
+    double horizon_factor = 3.01;
+
+    void declare(dealii::ParameterHandler &prm);
+    /// @throws InputError when the factor cannot make families.
+    void check() const;
+  };
+
+  /**
+   * Peridynamic nodes of this rank: what the neighbour search and the materials
+   * need to know of them. Arrays are indexed by the node's local number.
+   */
+  template <int dim>
+  struct NodeCloud
+  {
+    LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
+
+    /// Sets first_global and n_global from the sizes on all ranks. Collective.
+    void number();
+
+    /// Where the nodes are [m]; centroids of cells.
+    std::vector<dealii::Point<dim>> position;
+    /// Volumes, in 2-D area times thickness [m^3].
+    std::vector<double> volume;
+    /// Edge length of the square or cube of equal measure [m].
+    std::vector<double> spacing;
+    /// Horizon factor times spacing [m].
+    std::vector<double> horizon;
+    /// Material (cell group) of the node.
+    std::vector<dealii::types::material_id> material;
+
+    /// Global number of this rank's first node; the rank's nodes are contiguous.
+    GlobalIndex first_global = 0;
+    /// Number of nodes of all ranks.
+    GlobalIndex n_global = 0;
+
+    MPI_Comm communicator = MPI_COMM_NULL;
+  };
+
+  /**
+   * The nodes of a mesh, one for every locally owned cell, ordered along a
+   * space-filling curve so that families lie close in memory.
+   */
+  template <int dim>
+  struct Nodes : NodeCloud<dim>
+  {
+    /// @throws InputError on a horizon factor outside its range.
+    Nodes(const Mesh<dim> &mesh, const NodeParameters &parameters);
+
+    /// Local node of a locally owned active cell, by active_cell_index();
+    /// dealii::numbers::invalid_unsigned_int for other cells.
+    std::vector<LocalIndex> node_of_cell;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_bond_operator_h
+#define perideal_operators_bond_operator_h
+
+#include <perideal/base/types.h>
+#include <perideal/materials/linear_model.h>
+#include <perideal/neighbourhood/families.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// Number of families of all ranks by what became of their weights.
+  struct FamilyCounts
+  {
+    GlobalIndex fallback = 0, singular = 0, indefinite = 0;
+  };
+
+  /// Bulk and shear modulus [Pa] by material id.
+  struct Moduli
+  {
+    double bulk_modulus = 0, shear_modulus = 0;
+  };
+
+  /**
+   * The linear internal force of a bond model, K u, over all nodes of this rank
+   * (fictitious ones included), matrix-free. Boundary conditions are none of
+   * its business.
+   */
+  template <int dim>
+  class BondOperator
+  {
+  public:
+    virtual ~BondOperator() = default;
+
+    /// force = K displacement, [N] from [m]; the force the bonds resist with,
+    /// so that K u = external force. Both vectors have owned nodes, dim values each. Collective.
+    virtual void vmult(NodalVector &force, const NodalVector &displacement) const = 0;
+
+    /// The dim x dim blocks on the diagonal of K, by owned node [N/m]. Collective.
+    virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
+
+    /// Receives the entries that some unknowns have in each other's rows:
+    /// values[r * unknowns.size() + c].
+    using AddBlock =
+      std::function<void(const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values)>;
+
+    /// Hands out K piece by piece, in nodes' dim*number + component. Pieces
+    /// overlap and may lie in other ranks' rows; their sum is K.
+    virtual void assemble(const AddBlock &add) const = 0;
+
+    /// Sums of the last vmult() of an owned node: the dilatation first.
+    virtual const std::vector<double> &dilatation() const = 0;
+
+    virtual bool is_symmetric() const = 0;
+
+    /// Families of all ranks whose weights were not as the model wants them.
+    FamilyCounts counts;
+    /// What became of each owned family.
+    std::vector<FamilyReport> reports;
+
+    virtual std::size_t memory_consumption() const = 0;
+
+    /// A vector over owned nodes.
+    void initialize(NodalVector &vector) const { vector.reinit(partitioner); }
+
+  protected:
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+  };
+
+  /// Weighs every family with the model and chooses the loop for its shape. Collective.
+  /// @param moduli by material id; every material of the nodes is listed.
+  template <int dim>
+  std::unique_ptr<BondOperator<dim>>
+  create_bond_operator(const std::shared_ptr<const Families<dim>>                   &families,
+                       LinearModel<dim>                                             &model,
+                       const std::function<Moduli(const dealii::types::material_id)> &moduli);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_lanes_h
+#define perideal_operators_lanes_h
+
+/**
+ * Four doubles at once for the bond loops, on compiler vectors: they become
+ * AVX registers where the target has them and pairs of SSE registers elsewhere.
+ * (dealii::VectorizedArray has one lane in a distribution's portable build.)
+ */
+namespace perideal
+{
+  using Lanes = double __attribute__((vector_size(32)));
+
+  /// Four numbers of a node, loaded and stored as one: x, y, z and a state.
+  struct alignas(32) NodeRecord
+  {
+    double value[4];
+  };
+
+#define PERIDEAL_INLINE inline __attribute__((always_inline))
+
+  PERIDEAL_INLINE const Lanes &lanes(const NodeRecord &record)
+  {
+    return reinterpret_cast<const Lanes &>(record);
+  }
+
+  PERIDEAL_INLINE Lanes &lanes(NodeRecord &record)
+  {
+    return reinterpret_cast<Lanes &>(record);
+  }
+
+  /// Four consecutive numbers from anywhere.
+  PERIDEAL_INLINE void load(Lanes &result, const double *from)
+  {
+    __builtin_memcpy(&result, from, sizeof(Lanes));
+  }
+
+  /// The sums over the entries of a, b, c and d.
+  PERIDEAL_INLINE void sum_of_each(Lanes &result, const Lanes &a, const Lanes &b, const Lanes &c, const Lanes &d)
+  {
+    const Lanes ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Lanes cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    result         = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  }
+
+  PERIDEAL_INLINE double sum_of_all(const Lanes &a)
+  {
+    return (a[0] + a[1]) + (a[2] + a[3]);
+  }
+} // namespace perideal
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_largest_eigenvalue_h
+#define perideal_operators_largest_eigenvalue_h
+
+#include <perideal/operators/constrained_operator.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  /// Largest eigenvalue of the preconditioned operator, from ten Lanczos steps,
+  /// which underestimate it by a few per cent, times 1.1. Collective.
+  template <int dim, typename Preconditioner>
+  double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system, const Preconditioner &preconditioner)
+  {
+    NodalVector source, solution;
+    system.initialize(source);
+    system.initialize(solution);
+    // A vector without structure that does not depend on the number of ranks.
+    for (std::size_t i = 0; i < source.locally_owned_size(); ++i)
+      if (!system.is_held(i))
+        {
+          const double x          = 12.9898 * static_cast<double>(dim * system.first_global() + i + 1);
+          source.local_element(i) = std::fmod(std::abs(43758.5453 * std::sin(x)), 1.) - 0.5;
+        }
+    double                         largest = 0;
+    dealii::IterationNumberControl control(10, 1e-300);
+    dealii::SolverCG<NodalVector>  cg(control);
+    cg.connect_eigenvalues_slot([&](const std::vector<double> &eigenvalues) {
+      if (!eigenvalues.empty())
+        largest = *std::max_element(eigenvalues.begin(), eigenvalues.end());
+    });
+    cg.solve(system, solution, source, preconditioner);
+    return 1.1 * largest;
+  }
+} // namespace perideal
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_output_history_h
+#define perideal_output_history_h
+
+#include <fstream>
+#include <map>
+#include <mpi.h>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Numbers that change from step to step (energies, reactions, probes): a row
+   * a step in history.csv, which is on disk as soon as the row ends, and at the
+   * end the same columns as one-dimensional data sets in history.h5.
+   *
+   * All ranks may call all functions with values that all ranks agree on; rank
+   * 0 keeps and writes them. Only the constructor communicates.
+   */
+  class History
+  {
+  public:
+    /// Begins a new history.csv. Collective.
+    /// @throws InputError when the directory cannot be written.
+    History(const std::string &directory, MPI_Comm communicator);
+
+    /// Calls finish(), so that what was computed stays when an error ends the run.
+    ~History();
+
+    History(const History &)            = delete;
+    History &operator=(const History &) = delete;
+
+    /// A value of the current row. @param name with its unit, "time [s]".
+    void add(const std::string &name, const double value);
+
+    /// Completes the row. The first row fixes names and order of the columns;
+    /// later rows must repeat them.
+    /// @throws ComputationError when the row cannot be written.
+    void end_row();
+
+    /// An array besides the columns, for history.h5 alone (the residuals of a
+    /// linear solve, for instance); one of the same name is replaced.
+    void add_series(const std::string &name, const std::vector<double> &values);
+
+    /// Writes history.h5; nothing can be added afterwards. A '/' in a name, which
+    /// HDF5 keeps for groups, is written as '|'.
+    void finish();
+
+  private:
+    std::string   directory;
+    bool          is_writer;
+    bool          is_finished = false;
+    std::ofstream csv;
+
+    std::vector<std::string>                   row_names;
+    std::vector<double>                        row_values;
+    std::vector<std::string>                   column_names;
+    std::vector<std::vector<double>>           columns;
+    std::map<std::string, std::vector<double>> series;
+  };
+} // namespace perideal
+
+#endif

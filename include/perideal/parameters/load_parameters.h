@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_parameters_load_parameters_h
+#define perideal_parameters_load_parameters_h
+
+#include <perideal/parameters/space_time_function.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  class ParameterFile;
+
+  /// Expressions of one subsection of "Boundary conditions"; an empty one is free.
+  struct BoundaryConditionText
+  {
+    /// Name of the subsection, "Boundary conditions/<name>".
+    std::string name;
+    /// Gmsh physical names or ids, separated by commas.
+    std::string boundary;
+    /// Prescribed displacement by component [m].
+    std::array<std::string, 3> displacement;
+    /// Traction vector by component [Pa].
+    std::array<std::string, 3> traction;
+    /// Pressure [Pa], positive towards the body.
+    std::string pressure;
+  };
+
+  /// Sections "Boundary conditions" and "Body force", as text.
+  struct LoadParameters
+  {
+    /// How prescribed displacements reach the peridynamic nodes: layer | reference | mirror.
+    std::string displacement_treatment = "layer";
+    /// What to do about rigid-body motions that no condition holds: error | remove.
+    std::string                        rigid_body_motions = "error";
+    std::vector<BoundaryConditionText> conditions;
+    /// Force per volume by component [N/m^3].
+    std::array<std::string, 3> body_force;
+
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+  };
+
+  /// A boundary condition ready to be evaluated.
+  template <int dim>
+  struct BoundaryCondition
+  {
+    std::string                             name;
+    std::vector<std::string>                boundaries;
+    std::array<SpaceTimeFunction<dim>, dim> displacement;
+    std::array<SpaceTimeFunction<dim>, dim> traction;
+    SpaceTimeFunction<dim>                  pressure;
+
+    bool prescribes_displacement() const;
+    bool prescribes_traction() const;
+  };
+
+  /// All loads of a scene, ready to be evaluated.
+  template <int dim>
+  struct Loads
+  {
+    std::vector<BoundaryCondition<dim>>     conditions;
+    std::array<SpaceTimeFunction<dim>, dim> body_force;
+
+    /// @throws InputError on a wrong expression, a z component in 2-D, a
+    /// condition that prescribes nothing or both displacement and traction of
+    /// one component.
+    explicit Loads(const LoadParameters &parameters);
+    Loads() = default;
+
+    /// Traction vector [Pa] of a condition at a boundary point with outward
+    /// unit normal: the traction minus pressure times normal.
+    static dealii::Tensor<1, dim> traction(const BoundaryCondition<dim>   &condition,
+                                           const dealii::Point<dim>       &point,
+                                           const dealii::Tensor<1, dim>   &normal,
+                                           const double                    time);
+
+    /// Body force [N/m^3].
+    dealii::Tensor<1, dim> body_force_at(const dealii::Point<dim> &point, const double time) const;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_parameters_material_parameters_h
+#define perideal_parameters_material_parameters_h
+
+#include <perideal/parameters/elastic_constants.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  class ParameterFile;
+
+  /// What one material is made of.
+  struct MaterialProperties
+  {
+    /// Young's modulus [Pa].
+    double young_modulus = 70e9;
+    /// Poisson's ratio [-].
+    double poisson_ratio = 0.33;
+    /// Mass density [kg/m^3].
+    double density = 2700.;
+    /// Fracture energy [J/m^2]; 0: the material does not break.
+    double fracture_energy = 0.;
+  };
+
+  /**
+   * Section "Material": the properties of the whole body, and subsections named
+   * like a physical group for the cells of that group. A subsection's value
+   * defaults to the one of the section.
+   */
+  struct MaterialParameters
+  {
+    /// Name of the plane assumption, of interest in 2-D only.
+    std::string assumption = "plane stress";
+    /// Properties of cells in no named group.
+    MaterialProperties body;
+    /// Properties by physical group name (or id).
+    std::map<std::string, MaterialProperties> groups;
+
+    /// Declares the section, with a subsection for each the file has.
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    /// @throws InputError on values outside the physical range.
+    void check() const;
+
+    /// Elastic constants of a material in @p dim dimensions.
+    ElasticConstants elastic_constants(const MaterialProperties &material, const int dim) const;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_parameters_space_time_function_h
+#define perideal_parameters_space_time_function_h
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+
+namespace perideal
+{
+  /**
+   * A scalar function of position and time from a muParser expression in
+   * x, y, z and t (and pi). An empty expression makes an absent function.
+   */
+  template <int dim>
+  class SpaceTimeFunction
+  {
+  public:
+    SpaceTimeFunction() = default;
+
+    /// The expression is evaluated once here, because muParser finds mistakes
+    /// only then. @param parameter path of the parameter, for messages.
+    /// @throws InputError on a wrong expression.
+    SpaceTimeFunction(const std::string &expression, const std::string &parameter);
+
+    bool is_present() const { return function != nullptr; }
+
+    /// Value at a point [m] and time [s]; the function must be present.
+    double value(const dealii::Point<dim> &point, const double time) const;
+
+  private:
+    std::shared_ptr<dealii::FunctionParser<dim>> function;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_linear_solver_h
+#define perideal_solvers_linear_solver_h
+
+#include <perideal/fem/elastic_fem.h>
+#include <perideal/operators/constrained_operator.h>
+#include <perideal/operators/null_space.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Section "Solver".
+  struct SolverParameters
+  {
+    std::string  name           = "static";
+    double       tolerance      = 1e-8;
+    unsigned int max_iterations = 5000;
+    std::string  linear_solver  = "automatic";
+    std::string  preconditioner = "auxiliary";
+    unsigned int load_steps     = 1;
+
+    void declare(dealii::ParameterHandler &prm);
+    /// @throws InputError on choices that do not go together.
+    void check() const;
+
+    /// True when the finite-element matrix is needed.
+    bool needs_auxiliary_space() const;
+    /// True when the system is assembled.
+    bool assembles() const;
+  };
+
+  /// What a linear solve did.
+  struct LinearSolve
+  {
+    unsigned int iterations = 0;
+    bool         converged  = false;
+    /// Residual norms over the first one, by iteration.
+    std::vector<double> residuals;
+  };
+
+  /**
+   * Solves the system of a linear static scene again and again: operator and
+   * preconditioner are set up once.
+   */
+  template <int dim>
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /// Called with the iteration and the relative residual.
+    using Progress = std::function<void(const unsigned int, const double)>;
+
+    /// solution is the start and the result. A failed solve is reported, not thrown.
+    virtual LinearSolve solve(NodalVector &solution, const NodalVector &source, const Progress &progress) = 0;
+
+    /// "cg" with its preconditioner and the like, for the banner.
+    virtual std::string name() const = 0;
+  };
+
+  /// Chooses the solver: CG where the operator is symmetric, else GMRES, unless
+  /// the parameters say otherwise; sets up its preconditioner. The arguments
+  /// must outlive the result. Collective.
+  /// @param fem the assembled Q1 problem where the auxiliary space needs it, else a null pointer
+  template <int dim>
+  std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
+                                                          const ConstrainedOperator<dim> &system,
+                                                          const NullSpace<dim>           &null_space,
+                                                          const Nodes<dim>               &nodes,
+                                                          const ElasticFem<dim>          *fem);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/command_line.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/base/registry.h>
+
+namespace perideal
+{
+  CommandLine CommandLine::parse(const int argc, const char *const *argv)
+  {
+    const std::vector<std::string> options = {
+      "--set", "--check", "--parameters", "--help", "--version"};
+    CommandLine result;
+    for (int k = 0; k < argc; ++k)
+      result.command += (k > 0 ? " " : "") + std::string(argv[k]);
+    for (int k = 1; k < argc; ++k)
+      {
+        const std::string word = argv[k];
+        if (word == "--help" || word == "-h")
+          result.action = Action::help;
+        else if (word == "--version")
+          result.action = Action::version;
+        else if (word == "--check")
+          result.action = Action::check;
+        else if (word == "--parameters")
+          {
+            result.action = Action::print_parameters;
+            if (k + 1 < argc)
+              result.format = argv[++k];
+          }
+        else if (word == "--set")
+          {
+            if (k + 1 == argc)
+              throw InputError("--set needs a parameter and a value").allowed("--set \"Section/Name=value\"");
+            result.overrides.push_back(argv[++k]);
+          }
+        else if (word.compare(0, 1, "-") == 0)
+          throw InputError("unknown option")
+            .given(word)
+            .allowed(join_choices(options))
+            .nearest(nearest_name(word, options));
+        else if (result.scene_file.empty())
+          result.scene_file = word;
+        else
+          throw InputError("more than one parameter file").given(result.scene_file + " and " + word).allowed("one");
+      }
+    if (result.scene_file.empty() && (result.action == Action::run || result.action == Action::check))
+      throw InputError("no parameter file was given").allowed("perideal FILE.prm; see perideal --help");
+    return result;
+  }
+
+  std::string CommandLine::help()
+  {
+    return "perideal: peridynamics on finite-element meshes\n"
+           "\n"
+           "  perideal FILE.prm [--set \"Section/Name=value\"]...   run the scene; later values win\n"
+           "  perideal --check FILE.prm [--set ...]               read, mesh, count and warn; solve nothing\n"
+           "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, meaning\n"
+           "  perideal --help | --version\n"
+           "  mpirun -np N perideal FILE.prm                      the same on N cores\n"
+           "\n"
+           "Exit status: 0 done; 1 the input is wrong; 2 the computation failed, what was computed is on disk.\n";
+  }
+} // namespace perideal

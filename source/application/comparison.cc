@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/comparison.h>
+#include <perideal/output/errors.h>
+#include <perideal/output/profiles.h>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  template <int dim>
+  NodalField<dim> solve_fem(const SceneState<dim> &scene,
+                            const double           time,
+                            const double           tolerance,
+                            Timings               &timings,
+                            Json                  &report)
+  {
+    NodalField<dim> result(scene.nodes->size());
+    {
+      const Timings::Scope scope(timings, "fem");
+      ElasticFem<dim>      fem(*scene.mesh, scene.loads);
+      {
+        const Timings::Scope part(timings, "fem: assembly");
+        fem.assemble(scene.constants, time);
+      }
+      {
+        const Timings::Scope part(timings, "fem: multigrid");
+        fem.set_up_solver();
+      }
+      const Timings::Scope part(timings, "fem: solve");
+      report["iterations"].push_back(fem.solve(tolerance));
+      report["unknowns"] = fem.n_dofs();
+
+      std::vector<dealii::Point<dim>> point_of_cell(scene.nodes->node_of_cell.size());
+      for (std::size_t cell = 0; cell < point_of_cell.size(); ++cell)
+        if (scene.nodes->node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+          point_of_cell[cell] = scene.nodes->position[scene.nodes->node_of_cell[cell]];
+      const auto values = fem.evaluate_in_cells(point_of_cell);
+      for (std::size_t cell = 0; cell < values.size(); ++cell)
+        if (scene.nodes->node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+          result[scene.nodes->node_of_cell[cell]] = values[cell];
+    }
+    scene.null_space.remove_mean(*scene.nodes, result);
+    return result;
+  }
+
+  template <int dim>
+  NodalField<dim> solve_reference(const SceneState<dim> &scene,
+                                  const unsigned int     refinements,
+                                  const double           time,
+                                  Timings               &timings)
+  {
+    const Timings::Scope scope(timings, "reference");
+    ElasticFem<dim>      fem(*scene.mesh, scene.loads, 2, refinements);
+    fem.assemble(scene.constants, time);
+    fem.set_up_solver();
+    // Far below the discretisation errors that are to be seen.
+    fem.solve(1e-10);
+    auto result = fem.evaluate(scene.nodes->position);
+    scene.null_space.remove_mean(*scene.nodes, result);
+    return result;
+  }
+
+  template <int dim>
+  NodalField<dim> evaluate_exact(const SceneState<dim>      &scene,
+                                 const ComparisonParameters &parameters,
+                                 const double                time)
+  {
+    NodalField<dim> result(scene.nodes->size());
+    const char     *axes[] = {"x", "y", "z"};
+    for (int d = 0; d < dim; ++d)
+      {
+        const SpaceTimeFunction<dim> function(parameters.exact[d], std::string("Comparison/Exact u_") + axes[d]);
+        if (!function.is_present())
+          throw InputError("the exact solution lacks a component")
+            .parameter(std::string("Comparison/Exact u_") + axes[d])
+            .allowed("a formula for every component, or none at all");
+        for (LocalIndex i = 0; i < result.size(); ++i)
+          result[i][d] = function.value(scene.nodes->position[i], time);
+      }
+    scene.null_space.remove_mean(*scene.nodes, result);
+    return result;
+  }
+
+  namespace
+  {
+    template <int dim>
+    using Profiles = std::vector<std::pair<std::string, BoundaryProfile<dim>>>;
+
+    template <int dim>
+    Json errors_of(const SceneState<dim> &scene,
+                   const NodalField<dim> &field,
+                   const NodalField<dim> &reference,
+                   const Profiles<dim>   &profiles)
+    {
+      const char *components[] = {"u_x", "u_y", "u_z"};
+      const auto  errors       = field_errors(*scene.nodes, field, reference);
+      Json        result       = {{"l2", errors.l2}, {"max", errors.max}};
+      for (const auto &profile : profiles)
+        {
+          const auto along = profile_errors(*scene.nodes, profile.second.local_nodes(), field, reference);
+          for (int d = 0; d < dim; ++d)
+            result["profiles"][profile.first][components[d]] = along[d];
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  Json compare(const SceneState<dim>          &scene,
+               const std::vector<std::string> &profile_names,
+               const std::string              &output_directory)
+  {
+    Profiles<dim> profiles;
+    for (const std::string &name : profile_names)
+      profiles.emplace_back(name,
+                            BoundaryProfile<dim>(*scene.mesh,
+                                                 *scene.nodes,
+                                                 scene.mesh->boundary_id(name, "Comparison/Profiles")));
+
+    Json result = Json::object();
+    for (const auto &solution : scene.comparisons)
+      result[solution.first] = errors_of(scene, scene.displacement, solution.second, profiles);
+    // The finite elements' own error, beside which ours is to be read.
+    if (scene.comparisons.count("fem") > 0)
+      for (const char *truth : {"reference", "exact"})
+        if (scene.comparisons.count(truth) > 0)
+          result["fem"][std::string("own error against ") + truth] =
+            errors_of(scene, scene.comparisons.at("fem"), scene.comparisons.at(truth), profiles);
+
+    for (const auto &profile : profiles)
+      {
+        std::vector<typename BoundaryProfile<dim>::NamedField> fields = {{"perideal", scene.displacement}};
+        fields.insert(fields.end(), scene.comparisons.begin(), scene.comparisons.end());
+        profile.second.write(output_directory + "/profile_" + profile.first + ".csv", fields);
+      }
+    return result;
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                        \
+  template NodalField<dim> solve_fem(                                                                    \
+    const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);           \
+  template NodalField<dim> solve_reference(                                                              \
+    const SceneState<dim> &, const unsigned int, const double, Timings &);                               \
+  template NodalField<dim> evaluate_exact(                                                               \
+    const SceneState<dim> &, const ComparisonParameters &, const double);                                \
+  template nlohmann::ordered_json compare(                                                               \
+    const SceneState<dim> &, const std::vector<std::string> &, const std::string &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/command_line.h>
+#include <perideal/application/simulation.h>
+#include <perideal/application/versions.h>
+#include <perideal/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+  using namespace perideal;
+
+  template <int dim>
+  void run_or_check(const SceneParameters &scene, const RunContext &context, const bool only_check)
+  {
+    Simulation<dim> simulation(scene, context, MPI_COMM_WORLD);
+    if (only_check)
+      simulation.check();
+    else
+      simulation.run();
+  }
+
+  /// Reads the scene and runs it, with errors located in the file.
+  void process(const CommandLine &command_line)
+  {
+    ParameterFile file = ParameterFile::read(command_line.scene_file);
+    for (const std::string &text : command_line.overrides)
+      file.override_with(text);
+    try
+      {
+        dealii::ParameterHandler prm;
+        SceneParameters          scene;
+        scene.read(file, prm);
+
+        RunContext context;
+        context.command         = command_line.command;
+        context.scene_directory = std::filesystem::path(command_line.scene_file).parent_path().string();
+        std::ostringstream json;
+        prm.print_parameters(json, dealii::ParameterHandler::ShortJSON | dealii::ParameterHandler::KeepDeclarationOrder);
+        context.parameters = nlohmann::ordered_json::parse(json.str());
+
+        const bool only_check = command_line.action == CommandLine::Action::check;
+        if (scene.dimension == 2)
+          run_or_check<2>(scene, context, only_check);
+        else
+          run_or_check<3>(scene, context, only_check);
+      }
+    catch (const InputError &error)
+      {
+        throw file.locate(error);
+      }
+  }
+
+  std::string version_text()
+  {
+    std::string text;
+    const auto  list = versions();
+    for (const auto &item : list.items())
+      text += item.key() + ' ' + item.value().get<std::string>() + '\n';
+    return text;
+  }
+
+  void act(const CommandLine &command_line, const bool speaks)
+  {
+    std::ostringstream text;
+    switch (command_line.action)
+      {
+        case CommandLine::Action::help:
+          text << CommandLine::help();
+          break;
+        case CommandLine::Action::version:
+          text << version_text();
+          break;
+        case CommandLine::Action::print_parameters:
+          print_parameters(text, command_line.format);
+          break;
+        default:
+          process(command_line);
+      }
+    if (speaks)
+      std::cout << text.str() << std::flush;
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  const bool is_alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  try
+    {
+      act(CommandLine::parse(argc, argv), is_first);
+      return 0;
+    }
+  catch (const InputError &error)
+    {
+      // All ranks come here alike.
+      if (is_first)
+        std::cerr << "perideal: input error: " << error.what() << std::endl;
+      return 1;
+    }
+  catch (const ComputationError &error)
+    {
+      std::cerr << "perideal: computation failed: " << error.what() << std::endl;
+    }
+  catch (const std::bad_alloc &)
+    {
+      std::cerr << "perideal: computation failed: out of memory\n"
+                   "  advice: perideal --check shows what a scene needs"
+                << std::endl;
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "perideal: internal error: " << error.what() << std::endl;
+    }
+  // A single rank may fail; the others must not wait for it.
+  if (!is_alone)
+    MPI_Abort(MPI_COMM_WORLD, 2);
+  return 2;
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/output_fields.h>
+#include <perideal/base/registry.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    template <int dim>
+    using AddField = void (*)(const SceneState<dim> &, FieldOutput<dim> &);
+
+    template <int dim>
+    void add_comparison(const SceneState<dim> &scene, const std::string &name, FieldOutput<dim> &output)
+    {
+      const auto solution = scene.comparisons.find(name);
+      if (solution != scene.comparisons.end())
+        output.add_vector(name + "_displacement", solution->second);
+    }
+
+    template <int dim>
+    void add_error(const SceneState<dim> &scene, FieldOutput<dim> &output)
+    {
+      for (const auto &solution : scene.comparisons)
+        {
+          NodalField<dim> error = scene.displacement;
+          for (LocalIndex i = 0; i < error.size(); ++i)
+            error[i] -= solution.second[i];
+          output.add_vector("error_against_" + solution.first, error);
+        }
+    }
+
+    /// A number of each family.
+    template <int dim, typename Value>
+    void add_family_scalar(const SceneState<dim> &scene,
+                           const std::string     &name,
+                           const Value           &value,
+                           FieldOutput<dim>      &output)
+    {
+      std::vector<double> values(scene.nodes->size());
+      for (LocalIndex i = 0; i < values.size(); ++i)
+        values[i] = value(i);
+      output.add_scalar(name, values);
+    }
+
+    /// The list of fields: a new one is one line here.
+    template <int dim>
+    const Registry<AddField<dim>> &fields()
+    {
+      using Scene  = const SceneState<dim> &;
+      using Output = FieldOutput<dim> &;
+      static const Registry<AddField<dim>> list(
+        "Output/Fields",
+        {{"displacement", [](Scene s, Output o) { o.add_vector("displacement", s.displacement); }},
+         {"fem", [](Scene s, Output o) { add_comparison(s, "fem", o); }},
+         {"reference", [](Scene s, Output o) { add_comparison(s, "reference", o); }},
+         {"exact", [](Scene s, Output o) { add_comparison(s, "exact", o); }},
+         {"error", [](Scene s, Output o) { add_error(s, o); }},
+         {"dilatation",
+          [](Scene s, Output o) {
+            const auto &dilatation = s.bonds->dilatation();
+            add_family_scalar(s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
+          }},
+         {"volume", [](Scene s, Output o) { o.add_scalar("volume", s.nodes->volume); }},
+         {"horizon", [](Scene s, Output o) { o.add_scalar("horizon", s.nodes->horizon); }},
+         {"material",
+          [](Scene s, Output o) {
+            add_family_scalar(s, "material", [&](LocalIndex i) { return double(s.nodes->material[i]); }, o);
+          }},
+         {"neighbours",
+          [](Scene s, Output o) {
+            add_family_scalar(s, "neighbours", [&](LocalIndex i) { return double(s.families->size(i)); }, o);
+          }},
+         // 1: spherical or compromised weights, 2: a moment condition missed, 4: negative deviatoric weights met.
+         {"family status", [](Scene s, Output o) {
+            const auto status = [&](LocalIndex i) {
+              const FamilyReport &report = s.bonds->reports[i];
+              return double(report.fallback + 2 * report.singular + 4 * report.indefinite);
+            };
+            add_family_scalar(s, "family_status", status, o);
+          }}});
+      return list;
+    }
+  } // namespace
+
+  std::vector<std::string> output_field_names()
+  {
+    return fields<2>().names();
+  }
+
+  template <int dim>
+  void add_output_fields(const SceneState<dim>          &scene,
+                         const std::vector<std::string> &names,
+                         FieldOutput<dim>               &output)
+  {
+    for (const std::string &name : names)
+      fields<dim>().get(name)(scene, output);
+  }
+
+  template void add_output_fields(const SceneState<2> &, const std::vector<std::string> &, FieldOutput<2> &);
+  template void add_output_fields(const SceneState<3> &, const std::vector<std::string> &, FieldOutput<3> &);
+} // namespace perideal

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/report.h>
+#include <perideal/output/summary.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    double seconds_now()
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    /// "12,345,678".
+    std::string grouped(const GlobalIndex number)
+    {
+      std::string text = std::to_string(number);
+      for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
+        text.insert(at, ",");
+      return text;
+    }
+  } // namespace
+
+  template <int dim>
+  Json describe_discretisation(const SceneParameters &parameters, const SceneState<dim> &scene)
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::min;
+    using dealii::Utilities::MPI::sum;
+    const MPI_Comm communicator = scene.nodes->communicator;
+    double         smallest = 1e300, largest = 0, volume = 0;
+    for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+      {
+        smallest = std::min(smallest, scene.nodes->spacing[i]);
+        largest  = std::max(largest, scene.nodes->spacing[i]);
+        volume += scene.nodes->volume[i];
+      }
+    const auto statistics = scene.families->statistics();
+    Json       result;
+    result["mesh"]       = {{"dim", dim},
+                            {"cells", scene.mesh->triangulation.n_global_active_cells()},
+                            {"min_size", min(smallest, communicator)},
+                            {"max_size", max(largest, communicator)},
+                            {"volume", sum(volume, communicator)}};
+    result["nodes"]      = scene.nodes->n_global;
+    result["bonds"]      = scene.families->n_bonds();
+    result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
+    result["model"]      = parameters.model.model;
+    result["variant"]    = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
+    if (scene.bonds)
+      result["families"] = {{"fallback", scene.bonds->counts.fallback},
+                            {"singular", scene.bonds->counts.singular},
+                            {"indefinite", scene.bonds->counts.indefinite}};
+    return result;
+  }
+
+  template <int dim>
+  Json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene)
+  {
+    Json        result;
+    const auto  bonds = scene.families->n_bonds();
+    const auto  nodes = scene.nodes->n_global;
+    const bool  alone = dealii::Utilities::MPI::n_mpi_processes(scene.nodes->communicator) == 1;
+    result["bond state (nothing can break)"]        = bonds;
+    result["mass and velocity (statics)"]           = 2 * dim * nodes;
+    result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
+    if (alone)
+      result["halo exchange (one rank)"] = 1;
+    if (parameters.loads.displacement_treatment != "mirror")
+      result["fictitious nodes (no mirror)"] = 1;
+    if (parameters.model.model == "ordinary" || parameters.model.form == "paper")
+      result["second sum over families"] = bonds;
+    return result;
+  }
+
+  template <int dim>
+  std::string banner(const SceneParameters &parameters, const SceneState<dim> &scene)
+  {
+    const auto         statistics = scene.families->statistics();
+    std::ostringstream out;
+    out << "mesh        " << scene.mesh->description << '\n'
+        << "nodes       " << grouped(scene.nodes->n_global) << ", horizon " << parameters.nodes.horizon_factor
+        << " spacings, influence " << parameters.model.influence_function << '\n'
+        << "bonds       " << grouped(scene.families->n_bonds()) << ", neighbours a node " << statistics.min
+        << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)\n"
+        << "model       " << parameters.model.model
+        << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "") << ", "
+        << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
+    if (scene.bonds)
+      {
+        const FamilyCounts &counts = scene.bonds->counts;
+        out << "families    " << grouped(counts.fallback) << " with fallback weights, "
+            << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
+            << " had negative deviatoric weights\n";
+      }
+    out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
+    if (scene.mirror->n_fictitious() > 0)
+      out << ", " << grouped(scene.mirror->nodes().n_global - scene.nodes->n_global) << " fictitious nodes";
+    if (!scene.null_space.empty())
+      out << ", free rigid-body motions removed";
+    out << '\n';
+    if (scene.linear_solver)
+      out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
+    out << "not needed ";
+    const Json skipped = list_skipped(parameters, scene);
+    for (const auto &item : skipped.items())
+      out << (item.key() == "bond state (nothing can break)" ? " " : "; ") << item.key();
+    out << '\n';
+    return out.str();
+  }
+
+  template <int dim>
+  std::vector<std::string> warnings(const SceneParameters &parameters, const SceneState<dim> &scene)
+  {
+    std::vector<std::string> result;
+    const auto               statistics = scene.families->statistics();
+    const unsigned int       wanted     = dim == 2 ? 5 : 15;
+    if (statistics.min < wanted)
+      result.push_back("the smallest family has " + std::to_string(statistics.min) + " members, fewer than the " +
+                       std::to_string(wanted) + " moment conditions: enlarge Nodes/Horizon factor");
+    const double nu     = parameters.material.body.poisson_ratio;
+    const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
+    if (!stress && nu > 0.45)
+      result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
+    if (scene.bonds && scene.bonds->counts.singular > 0)
+      result.push_back(grouped(scene.bonds->counts.singular) +
+                       " families miss a moment condition: uniform strain is not exact there (thin parts, "
+                       "flat cells, small horizon); see the field \"family status\"");
+    if (parameters.model.model == "ordinary")
+      result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
+    const double ratio = dealii::GridTools::maximal_cell_diameter(scene.mesh->triangulation) /
+                         dealii::GridTools::minimal_cell_diameter(scene.mesh->triangulation);
+    if (ratio > 100)
+      result.push_back("cell sizes differ by a factor of " + short_number(ratio));
+    return result;
+  }
+
+  std::string timing_table(const std::map<std::string, double> &seconds)
+  {
+    std::vector<std::vector<std::string>> rows;
+    const double                          total = seconds.at("total");
+    for (const auto &phase : seconds)
+      if (phase.first != "total")
+        rows.push_back({phase.first,
+                        short_number(phase.second),
+                        std::to_string(static_cast<int>(std::lround(100 * phase.second / total))) + " %"});
+    rows.push_back({"total", short_number(total), "100 %"});
+    return report_table({"phase", "seconds", "share"}, rows);
+  }
+
+  namespace
+  {
+    void add_error_rows(const Json &errors, const std::string &title, std::vector<std::vector<std::string>> &rows)
+    {
+      const auto number = [](const Json &value) {
+        return value.is_number() ? short_number(value.get<double>()) : std::string("-");
+      };
+      rows.push_back({title, number(errors.at("l2")), number(errors.at("max"))});
+      if (errors.contains("profiles"))
+        for (const auto &profile : errors["profiles"].items())
+          for (const auto &component : profile.value().items())
+            rows.push_back({"  " + component.key() + " along " + profile.key(), "", number(component.value())});
+      for (const auto &item : errors.items())
+        if (item.value().is_object() && item.key() != "profiles")
+          add_error_rows(item.value(), title + ", " + item.key(), rows);
+    }
+  } // namespace
+
+  std::string error_table(const Json &errors)
+  {
+    std::vector<std::vector<std::string>> rows;
+    for (const auto &comparison : errors.items())
+      add_error_rows(comparison.value(), "against " + comparison.key(), rows);
+    return report_table({"relative error", "l2", "max"}, rows);
+  }
+
+  ProgressLine::ProgressLine(std::ostream      &out,
+                             const bool         is_visible,
+                             const std::string &what,
+                             const double       tolerance)
+    : out(out)
+    , is_visible(is_visible)
+    , what(what)
+    , tolerance(tolerance)
+    , start(seconds_now())
+    , last_print(start)
+  {}
+
+  ProgressLine::~ProgressLine()
+  {
+    if (printed)
+      out << std::endl;
+  }
+
+  void ProgressLine::operator()(const unsigned int iteration, const double residual)
+  {
+    const double now = seconds_now();
+    if (!is_visible || iteration == 0 || now - last_print < 1)
+      return;
+    last_print = now;
+    printed    = true;
+    std::ostringstream line;
+    line << '\r' << what << ": iteration " << iteration << ", residual " << short_number(residual);
+    if (residual > 0 && residual < 1)
+      {
+        const double left = (now - start) * std::max(0., std::log(tolerance) / std::log(residual) - 1);
+        line << ", about " << short_number(left) << " s left";
+      }
+    out << line.str() << "      " << std::flush;
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                             \
+  template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &); \
+  template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);         \
+  template std::string banner(const SceneParameters &, const SceneState<dim> &);              \
+  template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

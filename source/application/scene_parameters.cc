@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/output_fields.h>
+#include <perideal/application/scene_parameters.h>
+#include <perideal/base/registry.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+
+namespace perideal
+{
+  void ComparisonParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Comparison");
+    prm.add_parameter("FEM", fem, "Solve with Q1 finite elements on the same mesh and compare", Bool());
+    prm.add_parameter("Reference",
+                      reference,
+                      "Solve with Q2 finite elements on the refined mesh and compare with that as converged",
+                      Bool());
+    prm.add_parameter("Reference refinements",
+                      reference_refinements,
+                      "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself",
+                      Integer(0, 4));
+    prm.add_parameter("Profiles",
+                      profiles,
+                      "Boundaries (physical names or ids) along which displacements are written to "
+                      "profile_NAME.csv and compared",
+                      List(Anything(), 0, List::max_int_value, ","));
+    const char *axes[] = {"x", "y", "z"};
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("Exact u_") + axes[d],
+                        exact[d],
+                        std::string("Exact displacement along ") + axes[d] +
+                          " [m], a formula in x, y, z, t; empty: not known");
+    prm.leave_subsection();
+  }
+
+  void SceneParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
+  {
+    prm.add_parameter("Dimension", dimension, "Dimensions of space", dealii::Patterns::Integer(2, 3));
+    prm.add_parameter("Output directory",
+                      output_directory,
+                      "Directory for the results, from the current directory; created when missing");
+    mesh.declare(prm);
+    nodes.declare(prm);
+    model.declare(prm);
+    material.declare(prm, file);
+    solver.declare(prm);
+    loads.declare(prm, file);
+    comparison.declare(prm);
+    prm.enter_subsection("Output");
+    prm.add_parameter("Fields",
+                      fields,
+                      "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()));
+    prm.leave_subsection();
+  }
+
+  void SceneParameters::read(const ParameterFile &file, dealii::ParameterHandler &prm)
+  {
+    declare(prm, file);
+    file.apply(prm);
+    nodes.check();
+    material.check();
+    solver.check();
+    for (const std::string &field : field_names())
+      {
+        const auto known = output_field_names();
+        if (std::find(known.begin(), known.end(), field) == known.end())
+          throw InputError("unknown field")
+            .parameter("Output/Fields")
+            .given(field)
+            .allowed(join_choices(known))
+            .nearest(nearest_name(field, known));
+      }
+  }
+
+  std::vector<std::string> SceneParameters::field_names() const
+  {
+    return dealii::Utilities::split_string_list(fields, ',');
+  }
+
+  namespace
+  {
+    /// One table row a parameter, one heading a section.
+    void print_markdown(std::ostream                      &out,
+                        const boost::property_tree::ptree &section,
+                        const std::string                 &path)
+    {
+      const auto is_parameter = [](const auto &entry) {
+        return entry.second.find("pattern_description") != entry.second.not_found();
+      };
+      const auto cell = [](std::string text) {
+        for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+          text.insert(at, "\\");
+        return text;
+      };
+      out << "## " << (path.empty() ? "Top of the file" : path) << "\n\n"
+          << "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
+      for (const auto &entry : section)
+        if (is_parameter(entry))
+          out << "| `" << entry.first << "` | " << cell(entry.second.get<std::string>("default_value")) << " | "
+              << cell(entry.second.get<std::string>("pattern_description")) << " | "
+              << cell(entry.second.get<std::string>("documentation")) << " |\n";
+      out << '\n';
+      for (const auto &entry : section)
+        if (!is_parameter(entry))
+          print_markdown(out, entry.second, path.empty() ? entry.first : path + "/" + entry.first);
+    }
+  } // namespace
+
+  void print_parameters(std::ostream &out, const std::string &format)
+  {
+    // Sections that the user names appear once, under a name that says so.
+    const ParameterFile file = ParameterFile::parse("subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
+                                                    "subsection Boundary conditions\n"
+                                                    " subsection ANY NAME\n end\nend\n",
+                                                    "");
+    SceneParameters          scene;
+    dealii::ParameterHandler prm;
+    scene.declare(prm, file);
+    if (format == "text")
+      prm.print_parameters(out, dealii::ParameterHandler::Description | dealii::ParameterHandler::KeepDeclarationOrder);
+    else if (format == "prm")
+      prm.print_parameters(out, dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder);
+    else if (format == "markdown")
+      {
+        std::stringstream json;
+        prm.print_parameters(json, dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+        boost::property_tree::ptree tree;
+        boost::property_tree::read_json(json, tree);
+        print_markdown(out, tree, "");
+      }
+    else
+      throw InputError("unknown format of --parameters").given(format).allowed("text | prm | markdown");
+  }
+} // namespace perideal

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/comparison.h>
+#include <perideal/application/output_fields.h>
+#include <perideal/application/report.h>
+#include <perideal/application/simulation.h>
+#include <perideal/application/versions.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/boundary/nodal_forces.h>
+#include <perideal/fracture/critical_stretch.h>
+#include <perideal/mesh/create_mesh.h>
+#include <perideal/operators/stable_time_step.h>
+#include <perideal/output/files.h>
+#include <perideal/output/summary.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <iostream>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  template <int dim>
+  Simulation<dim>::Simulation(const SceneParameters &parameters,
+                              const RunContext      &context,
+                              MPI_Comm               communicator)
+    : parameters(parameters)
+    , context(context)
+    , communicator(communicator)
+    , screen(std::cout, dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    , timings(communicator)
+  {}
+
+  template <int dim>
+  void Simulation<dim>::run()
+  {
+    create_output_directory(parameters.output_directory, communicator);
+    make_mesh();
+    make_nodes_and_families();
+    find_free_motions();
+    prepare_comparisons();
+    weigh_bonds();
+    set_up_solver();
+    screen << banner(parameters, scene) << std::flush;
+    for (const std::string &warning : warnings(parameters, scene))
+      screen << "warning     " << warning << std::endl;
+
+    history = std::make_unique<History>(parameters.output_directory, communicator);
+    field_output =
+      std::make_unique<FieldOutput<dim>>(*scene.mesh,
+                                         *scene.nodes,
+                                         parameters.output_directory,
+                                         parameters.solver.load_steps > 1 ? OutputSteps::series : OutputSteps::single);
+    scene.system->initialize(displacement);
+    scene.system->initialize(external_force);
+    try
+      {
+        for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
+          step(number);
+      }
+    catch (const ComputationError &)
+      {
+        finish("failed");
+        throw;
+      }
+    finish("done");
+  }
+
+  template <int dim>
+  void Simulation<dim>::check()
+  {
+    make_mesh();
+    make_nodes_and_families();
+    weigh_bonds();
+    screen << banner(parameters, scene);
+
+    const std::size_t bytes = dealii::Utilities::MPI::sum(scene.families->memory_consumption() +
+                                                            scene.bonds->memory_consumption(),
+                                                          communicator);
+    screen << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
+           << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node; "
+           << "the preconditioner takes about as much again\n";
+    const auto density = [&](const dealii::types::material_id id) { return properties_of(id).density; };
+    screen << "time step   " << short_number(stable_time_step(*scene.system, density))
+           << " s is the largest stable one of explicit dynamics\n";
+    for (const auto id : scene.mesh->material_ids)
+      {
+        const MaterialProperties &material = properties_of(id);
+        double                    largest_horizon = 0;
+        for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+          if (scene.nodes->material[i] == id)
+            largest_horizon = std::max(largest_horizon, scene.nodes->horizon[i]);
+        largest_horizon = dealii::Utilities::MPI::max(largest_horizon, communicator);
+        screen << "material    " << id << ": ";
+        if (material.fracture_energy > 0)
+          screen << "critical stretch "
+                 << short_number(ordinary_critical_stretch(scene.constants.at(id),
+                                                           material.fracture_energy,
+                                                           largest_horizon))
+                 << " at the largest horizon, " << short_number(largest_horizon) << " m\n";
+        else
+          screen << "no fracture energy given, unbreakable\n";
+      }
+    for (const std::string &warning : warnings(parameters, scene))
+      screen << "warning     " << warning << '\n';
+    find_free_motions();
+    screen << "nothing was solved" << std::endl;
+  }
+
+  template <int dim>
+  const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id id) const
+  {
+    for (const auto &group : parameters.material.groups)
+      if (scene.mesh->material_id(group.first, "Material/" + group.first) == id)
+        return group.second;
+    return parameters.material.body;
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_mesh()
+  {
+    const Timings::Scope scope(timings, "mesh");
+    scene.mesh                 = create_mesh<dim>(parameters.mesh, communicator, context.scene_directory);
+    scene.loads                = Loads<dim>(parameters.loads);
+    scene.condition_boundaries = resolve_boundaries(*scene.mesh, scene.loads);
+    for (const std::string &name : parameters.comparison.profiles)
+      scene.mesh->boundary_id(name, "Comparison/Profiles");
+    for (const auto &group : parameters.material.groups)
+      scene.mesh->material_id(group.first, "Material/" + group.first);
+    for (const auto id : scene.mesh->material_ids)
+      scene.constants[id] = parameters.material.elastic_constants(properties_of(id), dim);
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_nodes_and_families()
+  {
+    const Timings::Scope scope(timings, "neighbours");
+    scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
+    scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
+    if (parameters.loads.displacement_treatment == "mirror")
+      {
+        scene.mirror = std::make_shared<MirrorLayer<dim>>(
+          *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
+        scene.held = HeldNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
+      }
+    else
+      {
+        scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
+        scene.held =
+          HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size());
+      }
+    scene.families = std::make_shared<const Families<dim>>(scene.mirror->nodes());
+    if (scene.families->statistics().min == 0)
+      throw InputError("a node has no neighbour within its horizon")
+        .parameter("Nodes/Horizon factor")
+        .hint("enlarge the factor, or give the body more than one cell");
+  }
+
+  template <int dim>
+  void Simulation<dim>::weigh_bonds()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const Timings::Scope part(timings, "setup: weights");
+    const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
+    scene.bonds = create_bond_operator<dim>(scene.families, *model, [&](const dealii::types::material_id id) {
+      const ElasticConstants &constants = scene.constants.at(id);
+      return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
+    });
+    scene.system =
+      std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
+  }
+
+  template <int dim>
+  void Simulation<dim>::find_free_motions()
+  {
+    // Which motions the held components allow: those of nodes, or of faces where images hold.
+    const auto         box = dealii::GridTools::compute_bounding_box(scene.mesh->triangulation);
+    dealii::Point<dim> lower, upper;
+    for (int d = 0; d < dim; ++d)
+      {
+        lower[d] = dealii::Utilities::MPI::min(box.lower_bound(d), communicator);
+        upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), communicator);
+      }
+    RigidBodyMotions<dim> motions(lower + 0.5 * (upper - lower), lower.distance(upper));
+    const bool            mirrored = parameters.loads.displacement_treatment == "mirror";
+    const HeldNodes<dim>  on_faces =
+      mirrored ? HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
+                  scene.held;
+    for (const auto &entry : on_faces.entries())
+      motions.hold(mirrored ? entry.point : scene.nodes->position[entry.node], entry.component);
+
+    const auto free = motions.free_motions(communicator);
+    if (free.empty())
+      return;
+    if (parameters.loads.rigid_body_motions == "error")
+      throw InputError("the conditions leave a rigid-body motion free: " +
+                       RigidBodyMotions<dim>::describe(free))
+        .parameter("Boundary conditions")
+        .hint("hold these motions, or, where the loads balance, set Boundary conditions/Rigid body "
+              "motions = remove");
+    NodalVector      layout;
+    dealii::IndexSet owned(dim * scene.nodes->n_global);
+    owned.add_range(dim * scene.nodes->first_global,
+                    dim * (scene.nodes->first_global + scene.nodes->size()));
+    layout.reinit(owned, communicator);
+    scene.null_space = NullSpace<dim>(*scene.nodes, motions, free, layout);
+  }
+
+  template <int dim>
+  void Simulation<dim>::prepare_comparisons()
+  {
+    if (parameters.comparison.reference || parameters.loads.displacement_treatment == "reference")
+      {
+        screen << "reference   Q2 finite elements, " << parameters.comparison.reference_refinements
+               << " refinement(s)" << std::endl;
+        scene.comparisons["reference"] =
+          solve_reference(scene, parameters.comparison.reference_refinements, 1., timings);
+      }
+  }
+
+  template <int dim>
+  void Simulation<dim>::set_up_solver()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const Timings::Scope part(timings, "setup: preconditioner");
+    if (parameters.solver.needs_auxiliary_space())
+      {
+        scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
+        scene.auxiliary_fem->assemble(scene.constants, 0.);
+      }
+    scene.linear_solver = create_linear_solver(
+      parameters.solver, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+  }
+
+  template <int dim>
+  void Simulation<dim>::step(const unsigned int number)
+  {
+    const double time = static_cast<double>(number) / parameters.solver.load_steps;
+    summary["solver"]["steps"] = number;
+    solve_equilibrium(time, displacement);
+    record_step(number, time, displacement);
+    write_fields(number, time);
+  }
+
+  template <int dim>
+  void Simulation<dim>::solve_equilibrium(const double time, NodalVector &displacement)
+  {
+    const Timings::Scope scope(timings, "solve");
+    scene.mirror->set_time(scene.loads, time);
+    compute_nodal_forces(
+      *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
+    if (parameters.loads.displacement_treatment == "reference")
+      {
+        // The reference belongs to the final loads; linear scenes scale.
+        NodalField<dim> values = scene.comparisons.at("reference");
+        for (auto &value : values)
+          value *= time;
+        scene.held.set_nodal_values(values, displacement);
+      }
+    else
+      scene.held.set_boundary_values(scene.loads, time, displacement);
+
+    NodalVector residual, correction;
+    scene.system->initialize(residual);
+    scene.system->initialize(correction);
+    scene.system->residual(residual, external_force, displacement);
+    if (scene.null_space.share_in(residual) > 1e-6)
+      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
+        .parameter("Boundary conditions/Rigid body motions")
+        .hint("balance the loads, or hold the body");
+    scene.null_space.project(residual);
+
+    ProgressLine progress(std::cout,
+                          dealii::Utilities::MPI::this_mpi_process(communicator) == 0,
+                          "solving t = " + short_number(time),
+                          parameters.solver.tolerance);
+    const LinearSolve result = scene.linear_solver->solve(
+      correction, residual, [&](const unsigned int iteration, const double r) { progress(iteration, r); });
+    displacement += correction;
+    summary["solver"]["iterations"].push_back(result.iterations);
+    summary["solver"]["converged"] = result.converged;
+    history->add_series("residuals of step " + std::to_string(summary["solver"]["iterations"].size()),
+                        result.residuals);
+    summary["solver"]["residuals"].push_back(result.residuals);
+    store_displacement();
+    if (!result.converged)
+      throw ComputationError("the linear solver (" + scene.linear_solver->name() + ") stopped at t = " +
+                             short_number(time) + " after " + std::to_string(result.iterations) +
+                             " iterations at a relative residual of " + short_number(result.residuals.back()) +
+                             ", not at " + short_number(parameters.solver.tolerance) +
+                             "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, take "
+                             "another Solver/Preconditioner, or check the scene with --check");
+  }
+
+  template <int dim>
+  void Simulation<dim>::store_displacement()
+  {
+    scene.displacement.resize(scene.nodes->size());
+    for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        scene.displacement[i][d] = displacement.local_element(dim * i + d);
+    scene.null_space.remove_mean(*scene.nodes, scene.displacement);
+  }
+
+  template <int dim>
+  void Simulation<dim>::record_step(const unsigned int number, const double time, const NodalVector &displacement)
+  {
+    NodalVector internal_force, free_force;
+    scene.system->initialize_all(internal_force);
+    scene.system->initialize(free_force);
+    scene.system->internal_force(internal_force, displacement);
+    std::copy(internal_force.begin(), internal_force.begin() + free_force.locally_owned_size(), free_force.begin());
+
+    // Linear: the strain energy is half the work of all forces that act on the body.
+    const double image_work      = scene.mirror->prescribed_work(internal_force);
+    const double strain_energy   = 0.5 * (free_force * displacement + image_work);
+    free_force -= external_force;
+    const auto held_reactions  = scene.held.sum_by_condition(free_force, communicator);
+    const auto image_reactions = scene.mirror->sum_by_condition(internal_force);
+    const double external_work =
+      0.5 * (external_force * displacement + scene.held.work(free_force, displacement, communicator) + image_work);
+
+    history->add("step", number);
+    history->add("time [s]", time);
+    history->add("strain energy [J]", strain_energy);
+    history->add("external work [J]", external_work);
+    const char *axes[] = {"x", "y", "z"};
+    Json        reactions = Json::object();
+    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
+      if (scene.loads.conditions[k].prescribes_displacement())
+        for (int d = 0; d < dim; ++d)
+          {
+            const std::string &name  = scene.loads.conditions[k].name;
+            const double       value = parameters.loads.displacement_treatment == "mirror" ?
+                                         image_reactions[k][d] :
+                                         held_reactions[k][d];
+            history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
+            reactions[name].push_back(value);
+          }
+    history->end_row();
+    const double drift   = external_work != 0 ? (external_work - strain_energy) / external_work : 0.;
+    summary["energy"]    = {{"strain", strain_energy}, {"external", external_work}, {"drift", drift}};
+    summary["reactions"] = reactions;
+  }
+
+  template <int dim>
+  void Simulation<dim>::write_fields(const unsigned int number, const double time)
+  {
+    const bool is_last = number == parameters.solver.load_steps;
+    if (is_last)
+      compare_at_end(time);
+    const Timings::Scope scope(timings, "output");
+    add_output_fields(scene, parameters.field_names(), *field_output);
+    field_output->write(number, time);
+  }
+
+  template <int dim>
+  void Simulation<dim>::compare_at_end(const double time)
+  {
+    if (parameters.comparison.fem)
+      scene.comparisons["fem"] = solve_fem(scene, time, parameters.solver.tolerance, timings, summary["fem"]);
+    const auto &exact = parameters.comparison.exact;
+    if (!(exact[0].empty() && exact[1].empty() && exact[2].empty()))
+      scene.comparisons["exact"] = evaluate_exact(scene, parameters.comparison, time);
+    const Timings::Scope scope(timings, "output");
+    summary["errors"] = compare(scene, parameters.comparison.profiles, parameters.output_directory);
+  }
+
+  template <int dim>
+  void Simulation<dim>::finish(const std::string &status)
+  {
+    {
+      const Timings::Scope scope(timings, "output");
+      if (status != "done" && scene.displacement.size() == scene.nodes->size())
+        {
+          // What there is may show what went wrong.
+          field_output->add_vector("displacement", scene.displacement);
+          field_output->write(parameters.solver.load_steps + 1, 2.);
+        }
+      history->finish();
+    }
+    Json result       = {{"status", status}, {"command", context.command}};
+    result["versions"]   = versions();
+    result["parameters"] = context.parameters;
+    result.update(describe_discretisation(parameters, scene));
+    summary["solver"]["name"] = scene.linear_solver->name();
+    result.update(summary);
+    result["skipped"]      = list_skipped(parameters, scene);
+    const auto seconds     = timings.seconds();
+    result["seconds"]      = seconds;
+    result["memory_bytes"] = peak_memory_bytes(communicator);
+    result["operator_bytes"] =
+      dealii::Utilities::MPI::sum(scene.families->memory_consumption() + scene.bonds->memory_consumption(),
+                                  communicator);
+    result["ranks"] = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    write_summary(parameters.output_directory + "/summary.json", result, communicator);
+
+    if (status == "done")
+      screen << "solved      " << summary["solver"]["iterations"].back() << " iterations, strain energy "
+             << short_number(summary["energy"]["strain"].template get<double>()) << " J\n";
+    if (result.contains("errors") && !result["errors"].empty())
+      screen << '\n' << error_table(result["errors"]);
+    screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace perideal

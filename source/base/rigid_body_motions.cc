@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/rigid_body_motions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  template <int dim>
+  RigidBodyMotions<dim>::RigidBodyMotions(const dealii::Point<dim> &centre, const double size)
+    : centre(centre)
+    , size(size)
+  {}
+
+  template <int dim>
+  dealii::Tensor<1, dim> RigidBodyMotions<dim>::basic_motion(const unsigned int        motion,
+                                                             const dealii::Point<dim> &point) const
+  {
+    dealii::Tensor<1, dim> displacement;
+    if (motion < dim)
+      {
+        displacement[motion] = 1.;
+        return displacement;
+      }
+    // A rotation about axis a turns the plane of the two other axes.
+    const auto         arm  = (point - centre) / size;
+    const unsigned int axis = dim == 2 ? 2 : motion - dim;
+    const unsigned int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    displacement[b] = -arm[c];
+    displacement[c] = arm[b];
+    return displacement;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> RigidBodyMotions<dim>::value(const Coefficients       &coefficients,
+                                                      const dealii::Point<dim> &point) const
+  {
+    dealii::Tensor<1, dim> displacement;
+    for (unsigned int motion = 0; motion < n_motions; ++motion)
+      displacement += coefficients[motion] * basic_motion(motion, point);
+    return displacement;
+  }
+
+  template <int dim>
+  void RigidBodyMotions<dim>::hold(const dealii::Point<dim> &point, const unsigned int component)
+  {
+    Coefficients row;
+    for (unsigned int motion = 0; motion < n_motions; ++motion)
+      row[motion] = basic_motion(motion, point)[component];
+    for (unsigned int a = 0; a < n_motions; ++a)
+      for (unsigned int b = 0; b < n_motions; ++b)
+        gram[a][b] += row[a] * row[b];
+  }
+
+  template <int dim>
+  std::vector<typename RigidBodyMotions<dim>::Coefficients>
+  RigidBodyMotions<dim>::free_motions(MPI_Comm communicator) const
+  {
+    using Matrix = Eigen::Matrix<double, n_motions, n_motions>;
+    Matrix total;
+    for (unsigned int a = 0; a < n_motions; ++a)
+      for (unsigned int b = 0; b < n_motions; ++b)
+        total(a, b) = dealii::Utilities::MPI::sum(gram[a][b], communicator);
+
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(total);
+    const double                                largest = eigen.eigenvalues()[n_motions - 1];
+    std::vector<Coefficients>                   result;
+    for (unsigned int k = 0; k < n_motions; ++k)
+      if (eigen.eigenvalues()[k] <= 1e-10 * largest)
+        {
+          Coefficients combination;
+          for (unsigned int a = 0; a < n_motions; ++a)
+            combination[a] = eigen.eigenvectors()(a, k);
+          result.push_back(combination);
+        }
+    return result;
+  }
+
+  template <int dim>
+  std::string RigidBodyMotions<dim>::describe(const std::vector<Coefficients> &motions)
+  {
+    // Name every basic motion with a share in the free space.
+    const char *translations[] = {"translation in x", "translation in y", "translation in z"};
+    const char *rotations[]    = {"rotation about x", "rotation about y", "rotation about z"};
+    std::string text;
+    for (unsigned int basic = 0; basic < n_motions; ++basic)
+      {
+        double share = 0;
+        for (const Coefficients &motion : motions)
+          share = std::max(share, std::abs(motion[basic]));
+        if (share > 1e-6)
+          text += (text.empty() ? "" : ", ") +
+                  std::string(basic < dim ? translations[basic] : rotations[dim == 2 ? 2 : basic - dim]);
+      }
+    return text;
+  }
+
+  template class RigidBodyMotions<2>;
+  template class RigidBodyMotions<3>;
+} // namespace perideal

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/boundary/boundary_faces.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <map>
+#include <utility>
+
+namespace perideal
+{
+  template <int dim>
+  std::vector<BoundaryFace<dim>> find_boundary_faces(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
+  {
+    std::vector<BoundaryFace<dim>> result;
+    const dealii::MappingQ1<dim>   mapping;
+    const dealii::FE_Nothing<dim>  no_element;
+    dealii::FEFaceValues<dim>      values(mapping,
+                                     no_element,
+                                     dealii::QGauss<dim - 1>(2),
+                                     dealii::update_JxW_values | dealii::update_quadrature_points |
+                                       dealii::update_normal_vectors);
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              values.reinit(cell, f);
+              BoundaryFace<dim> face;
+              face.node     = nodes.node_of_cell[cell->active_cell_index()];
+              face.boundary = cell->face(f)->boundary_id();
+              face.area     = 0;
+              for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  face.area += values.JxW(q);
+                  face.centre += values.JxW(q) * values.quadrature_point(q);
+                  face.normal += values.JxW(q) * values.normal_vector(q);
+                }
+              face.centre /= face.area;
+              face.normal /= face.normal.norm();
+              face.area *= mesh.thickness;
+              for (const unsigned int v : cell->face(f)->vertex_indices())
+                face.vertices.push_back(cell->face(f)->vertex(v));
+              result.push_back(std::move(face));
+            }
+    return result;
+  }
+
+  template <int dim>
+  std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<dim>  &mesh,
+                                                                          const Loads<dim> &loads)
+  {
+    const char *axes[] = {"x", "y", "z"};
+    // Who holds, and who pulls, a component of a boundary.
+    std::map<std::pair<dealii::types::boundary_id, int>, std::string> holder, puller;
+    std::vector<std::vector<dealii::types::boundary_id>>              result;
+    for (const BoundaryCondition<dim> &condition : loads.conditions)
+      {
+        const std::string section = "Boundary conditions/" + condition.name;
+        result.emplace_back();
+        for (const std::string &name : condition.boundaries)
+          {
+            const auto id = mesh.boundary_id(name, section + "/Boundary");
+            result.back().push_back(id);
+            for (int d = 0; d < dim; ++d)
+              {
+                const auto complain = [&](const std::string &what, const std::string &other) {
+                  throw InputError(what + " of boundary \"" + name + "\" along " + axes[d] +
+                                   " is prescribed twice")
+                    .parameter(section)
+                    .given("also by Boundary conditions/" + other)
+                    .hint("name every boundary in one condition for each component");
+                };
+                if (condition.displacement[d].is_present() &&
+                    !holder.insert({{id, d}, condition.name}).second)
+                  complain("the displacement", holder.at({id, d}));
+                if (condition.traction[d].is_present() && !puller.insert({{id, d}, condition.name}).second)
+                  complain("the traction", puller.at({id, d}));
+              }
+          }
+      }
+    for (const auto &held : holder)
+      if (puller.count(held.first) > 0)
+        throw InputError("displacement and traction of one component of boundary \"" +
+                         mesh.boundary_name(held.first.first) + "\" are both prescribed")
+          .parameter("Boundary conditions/" + puller.at(held.first))
+          .given("displacement by Boundary conditions/" + held.second)
+          .hint("remove one of them");
+    return result;
+  }
+
+  template struct BoundaryFace<2>;
+  template struct BoundaryFace<3>;
+  template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const Nodes<2> &);
+  template std::vector<BoundaryFace<3>> find_boundary_faces(const Mesh<3> &, const Nodes<3> &);
+  template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<2> &,
+                                                                                   const Loads<2> &);
+  template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<3> &,
+                                                                                   const Loads<3> &);
+} // namespace perideal

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/fem/algebraic_multigrid.h>
+#include <perideal/fem/support_points.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+
+#include <Epetra_MultiVector.h>
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+
+namespace perideal
+{
+  template <int dim>
+  struct AlgebraicMultigrid<dim>::Implementation
+  {
+    explicit Implementation(const ElasticFem<dim> &fem)
+      : near_null_space(fem.matrix().trilinos_matrix().DomainMap(), RigidBodyMotions<dim>::n_motions)
+    {}
+
+    // ML keeps a pointer to these values; declared first so that it goes last.
+    Epetra_MultiVector                         near_null_space;
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+  };
+
+  namespace
+  {
+    /// Values of all rigid-body motions at the unknowns. Translations alone (as
+    /// deal.II's constant_modes) let the iterations grow with the mesh.
+    template <int dim>
+    void fill_rigid_body_modes(const ElasticFem<dim> &fem, Epetra_MultiVector &modes)
+    {
+      const auto points  = owned_support_points(fem.mapping(), fem.dof_handler());
+      const auto motions = motions_about_middle(points, fem.dof_handler().get_communicator());
+      for (unsigned int mode = 0; mode < RigidBodyMotions<dim>::n_motions; ++mode)
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            const dealii::Tensor<1, dim> value = motions.basic_motion(mode, points[i]);
+            for (unsigned int d = 0; d < dim; ++d)
+              modes[mode][dim * i + d] = value[d];
+          }
+    }
+
+    /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
+    template <int dim>
+    Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space, const bool smooth_finest)
+    {
+      Teuchos::ParameterList options;
+      ML_Epetra::SetDefaults("SA", options);
+      options.set("ML output", 0);
+      options.set("PDE equations", dim);
+      options.set("prec type", "MGV");
+      options.set("cycle applications", 1);
+      options.set("aggregation: type", "Uncoupled");
+      // Elasticity has no strength of connection to go by: keep all couplings.
+      options.set("aggregation: threshold", 0.);
+      options.set("smoother: type", "Chebyshev");
+      options.set("smoother: sweeps", 2);
+      options.set("smoother: pre or post", "both");
+      if (!smooth_finest)
+        options.set("smoother: type (level 0)", "do-nothing");
+      options.set("coarse: type", "Amesos-KLU");
+      options.set("coarse: max size", 2000);
+      options.set("null space: type", "pre-computed");
+      options.set("null space: dimension", near_null_space.NumVectors());
+      options.set("null space: vectors", near_null_space.Values());
+      options.set("null space: add default vectors", false);
+      return options;
+    }
+  } // namespace
+
+  template <int dim>
+  AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest)
+    : implementation(std::make_unique<Implementation>(fem))
+  {
+    Epetra_MultiVector &modes = implementation->near_null_space;
+    fill_rigid_body_modes(fem, modes);
+    implementation->multigrid.initialize(fem.matrix(), multigrid_options<dim>(modes, smooth_finest));
+  }
+
+  template <int dim>
+  AlgebraicMultigrid<dim>::~AlgebraicMultigrid() = default;
+
+  template <int dim>
+  void AlgebraicMultigrid<dim>::vmult(NodalVector &destination, const NodalVector &source) const
+  {
+    implementation->multigrid.vmult(destination, source);
+  }
+
+  template class AlgebraicMultigrid<2>;
+  template class AlgebraicMultigrid<3>;
+} // namespace perideal

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/fem/algebraic_multigrid.h>
+#include <perideal/fem/displacement_constraints.h>
+#include <perideal/fem/elastic_fem.h>
+#include <perideal/mesh/create_mesh.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  ElasticFem<dim>::ElasticFem(const Mesh<dim>    &mesh,
+                              const Loads<dim>   &loads,
+                              const unsigned int  degree,
+                              const unsigned int  refinements)
+    : mesh(mesh)
+    , loads(loads)
+    , has_body_force(std::any_of(loads.body_force.begin(),
+                                 loads.body_force.end(),
+                                 [](const SpaceTimeFunction<dim> &force) { return force.is_present(); }))
+    , geometry(degree)
+    , element(dealii::FE_Q<dim>(degree), dim)
+  {
+    for (const BoundaryCondition<dim> &condition : loads.conditions)
+      if (condition.prescribes_traction())
+        for (const std::string &boundary : condition.boundaries)
+          tractions.emplace(mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary"),
+                            &condition);
+
+    if (degree == 1 && refinements == 0)
+      unknowns.reinit(mesh.triangulation);
+    else
+      {
+        refined = std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(
+          mesh.triangulation.get_communicator());
+        copy_refined(mesh, refinements, *refined);
+        unknowns.reinit(*refined);
+      }
+  }
+
+  template <int dim>
+  ElasticFem<dim>::~ElasticFem() = default;
+
+  template <int dim>
+  void ElasticFem<dim>::make_constraints()
+  {
+    dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
+    held.reinit(relevant);
+    dealii::DoFTools::make_hanging_node_constraints(unknowns, held);
+    add_prescribed_displacements(geometry, unknowns, mesh, loads, time, held);
+    pins = pin_free_motions(geometry, unknowns, held);
+    held.close();
+  }
+
+  template <int dim>
+  void ElasticFem<dim>::make_sparsity()
+  {
+    const dealii::IndexSet &owned        = unknowns.locally_owned_dofs();
+    const MPI_Comm          communicator = unknowns.get_communicator();
+
+    dealii::TrilinosWrappers::SparsityPattern sparsity(owned, owned, relevant, communicator);
+    dealii::DoFTools::make_sparsity_pattern(unknowns, sparsity, held, false);
+    sparsity.compress();
+    stiffness.reinit(sparsity);
+    right_hand_side.reinit(owned, relevant, communicator);
+    displacement.reinit(right_hand_side);
+  }
+
+  template <int dim>
+  void ElasticFem<dim>::cell_system(const Cell                 &cell,
+                                    CellIntegrals<dim>         &integrals,
+                                    dealii::FullMatrix<double> &matrix,
+                                    dealii::Vector<double>     &forces) const
+  {
+    const auto material = constants.find(cell->material_id());
+    // Not an Assert: in Release a body without stiffness would come out, silently.
+    AssertThrow(material != constants.end(),
+                dealii::ExcMessage("no elastic constants for material id " +
+                                   std::to_string(cell->material_id())));
+    integrals.stiffness(cell, material->second, matrix);
+
+    forces = 0.;
+    if (has_body_force)
+      integrals.add_body_force(
+        cell, [&](const dealii::Point<dim> &point) { return loads.body_force_at(point, time); }, forces);
+    if (!tractions.empty() && cell->at_boundary())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary())
+          {
+            const auto acting = tractions.equal_range(cell->face(face)->boundary_id());
+            for (auto entry = acting.first; entry != acting.second; ++entry)
+              integrals.add_traction(
+                cell,
+                face,
+                [&](const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &normal) {
+                  return Loads<dim>::traction(*entry->second, point, normal, time);
+                },
+                forces);
+          }
+  }
+
+  template <int dim>
+  void ElasticFem<dim>::assemble(const ConstantsByMaterial &constants, const double time)
+  {
+    this->constants = constants;
+    this->time      = time;
+    preconditioner.reset();
+    unknowns.distribute_dofs(element);
+    make_constraints();
+    make_sparsity();
+
+    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? mesh.thickness : 1.);
+    const unsigned int                           n = element.n_dofs_per_cell();
+    dealii::FullMatrix<double>                   matrix(n, n);
+    dealii::Vector<double>                       forces(n);
+    std::vector<dealii::types::global_dof_index> indices(n);
+    for (const Cell &cell : unknowns.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell_system(cell, integrals, matrix, forces);
+          cell->get_dof_indices(indices);
+          held.distribute_local_to_global(matrix, forces, indices, stiffness, right_hand_side);
+        }
+    stiffness.compress(dealii::VectorOperation::add);
+    right_hand_side.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  void ElasticFem<dim>::set_up_solver()
+  {
+    preconditioner = std::make_unique<AlgebraicMultigrid<dim>>(*this, true);
+  }
+
+  template <int dim>
+  unsigned int ElasticFem<dim>::solve(const double tolerance)
+  {
+    if (preconditioner == nullptr)
+      set_up_solver();
+    const unsigned int             largest_number_of_iterations = 2000;
+    dealii::SolverControl          control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
+    dealii::SolverCG<NodalVector>  cg(control);
+    displacement = 0.;
+    try
+      {
+        cg.solve(stiffness, displacement, right_hand_side, *preconditioner);
+      }
+    catch (const dealii::SolverControl::NoConvergence &error)
+      {
+        throw ComputationError("the finite-element comparison did not converge: residual " +
+                               std::to_string(error.last_residual / right_hand_side.l2_norm()) +
+                               " of the right-hand side after " + std::to_string(error.last_step) +
+                               " CG iterations");
+      }
+    held.distribute(displacement);
+    displacement.update_ghost_values();
+    return control.last_step();
+  }
+
+  template <int dim>
+  dealii::types::global_cell_index ElasticFem<dim>::n_cells() const
+  {
+    return unknowns.get_triangulation().n_global_active_cells();
+  }
+
+  template class ElasticFem<2>;
+  template class ElasticFem<3>;
+} // namespace perideal

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/materials/extended_ordinary.h>
+#include <perideal/materials/ordinary.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// A weight counts as negative when it is so beyond round-off of the spherical one.
+    bool any_negative(const std::vector<double> &weights, const std::vector<double> &spherical)
+    {
+      for (std::size_t j = 0; j < weights.size(); ++j)
+        if (weights[j] < -1e-12 * spherical[j])
+          return true;
+      return false;
+    }
+
+    template <int dim>
+    const Registry<typename ExtendedOrdinary<dim>::Form> &forms()
+    {
+      using Form = typename ExtendedOrdinary<dim>::Form;
+      static const Registry<Form> list("Material/Form", {{"paper", Form::paper}, {"energy", Form::energy}});
+      return list;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::string> ExtendedOrdinary<dim>::form_names()
+  {
+    return forms<dim>().names();
+  }
+
+  template <int dim>
+  typename ExtendedOrdinary<dim>::Form ExtendedOrdinary<dim>::form_of(const std::string &name)
+  {
+    return forms<dim>().get(name);
+  }
+
+  template <int dim>
+  ExtendedOrdinary<dim>::ExtendedOrdinary(const Form               form,
+                                          const InfluenceFunction &influence,
+                                          const double             thickness)
+    : form(form)
+    , influence(influence)
+    , thickness(thickness)
+  {}
+
+  template <int dim>
+  FamilyShape ExtendedOrdinary<dim>::shape() const
+  {
+    // The paper's force follows from theta alone; the energy's also needs
+    // q = sum_j wd e^d |xi| V_j.
+    return form == Form::paper ? FamilyShape{1, true} : FamilyShape{2, false};
+  }
+
+  template <int dim>
+  FamilyReport ExtendedOrdinary<dim>::weigh(const FamilyView<dim> &family,
+                                            std::vector<double>   &wh,
+                                            std::vector<double>   &wd)
+  {
+    spherical_weights(family, influence, thickness, spherical);
+    spherical_deviatoric = spherical;
+    for (double &weight : spherical_deviatoric)
+      weight *= (dim + 2) / 2.;
+    wh = spherical;
+    wd = spherical_deviatoric;
+
+    // w = ws + lambda.monomials                                   (35), (55)
+    hydrostatic_conditions.reinit(family);
+    deviatoric_conditions.reinit(family);
+    double missed_h = hydrostatic_conditions.correct(wh);
+    double missed_d = deviatoric_conditions.correct(wd);
+
+    FamilyReport report;
+    report.indefinite = any_negative(wd, spherical_deviatoric);
+    if (form == Form::paper)
+      report.fallback = any_negative(wh, spherical);
+    else if (report.indefinite)
+      {
+        missed_d        = deviatoric_conditions.correct_nonnegative(spherical_deviatoric, wd);
+        report.fallback = missed_d > MomentConditions<dim, 4>::tolerance;
+      }
+    report.singular =
+      std::max(missed_h, missed_d) > MomentConditions<dim, 4>::tolerance;
+    return report;
+  }
+
+  template <int dim>
+  void ExtendedOrdinary<dim>::compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients)
+  {
+    coefficients.report = weigh(family, wh, wd);
+    if (form == Form::paper)
+      compute_paper(family, coefficients);
+    else
+      compute_energy(family, coefficients);
+  }
+
+  template <int dim>
+  void ExtendedOrdinary<dim>::compute_paper(const FamilyView<dim> &family, FamilyCoefficients &coefficients) const
+  {
+    // t = kappa wh |xi| theta + 2 mu wd (e - theta |xi|/dim)      (70)
+    // theta always has the corrected weight; the force has the spherical ones
+    // in a fallback family.
+    const double mu = family.shear_modulus, kappa = family.bulk_modulus;
+    const auto  &force_h = coefficients.report.fallback ? spherical : wh;
+    const auto  &force_d = coefficients.report.fallback ? spherical_deviatoric : wd;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        const double volumes            = family.node_volume * family.volume[j];
+        coefficients.sum[0][j]          = wh[j] * family.volume[j];
+        coefficients.force_weight[0][j] = volumes * (kappa * force_h[j] - 2. * mu / dim * force_d[j]);
+        coefficients.stiffness[j]       = 2. * mu * volumes * force_d[j] / family.length_square[j];
+      }
+    coefficients.map = {{1., 0., 0.}};
+  }
+
+  template <int dim>
+  void ExtendedOrdinary<dim>::compute_energy(const FamilyView<dim> &family, FamilyCoefficients &coefficients) const
+  {
+    // t = wh |xi| (kappa theta - 2 mu q/dim) + 2 mu wd (e - theta |xi|/dim),
+    // q = sum_j wd e^d |xi| V_j = h - theta s/dim,
+    // h = sum_j wd |xi| e V_j,  s = sum_j wd |xi|^2 V_j:
+    // sums (theta, h), states A = V (kappa theta - 2 mu q/dim), B = -2 mu V theta/dim.
+    const double mu = family.shear_modulus, kappa = family.bulk_modulus;
+    double       s = 0;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        coefficients.sum[0][j] = wh[j] * family.volume[j];
+        coefficients.sum[1][j] = wd[j] * family.volume[j];
+        coefficients.stiffness[j] =
+          2. * mu * family.node_volume * wd[j] * family.volume[j] / family.length_square[j];
+        s += wd[j] * family.length_square[j] * family.volume[j];
+      }
+    const double coupling = -2. * mu * family.node_volume / dim;
+    coefficients.map      = {{family.node_volume * kappa - coupling * s / dim, coupling, 0.}};
+  }
+
+  template class ExtendedOrdinary<2>;
+  template class ExtendedOrdinary<3>;
+} // namespace perideal

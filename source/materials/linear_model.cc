@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/linear_model.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  void FamilyView<dim>::reinit(const Families<dim> &families, const LocalIndex i)
+  {
+    size        = families.size(i);
+    node_volume = families.volume[i];
+    horizon     = families.horizon[i];
+    for (auto &component : bond)
+      component.resize(size);
+    length_square.resize(size);
+    volume.resize(size);
+    bond_horizon.resize(size);
+    for (LocalIndex k = 0; k < size; ++k)
+      {
+        const LocalIndex j  = families.begin(i)[k];
+        const auto       xi = families.position[j] - families.position[i];
+        for (int d = 0; d < dim; ++d)
+          bond[d][k] = xi[d];
+        length_square[k] = xi.norm_square();
+        volume[k]        = families.volume[j];
+        bond_horizon[k]  = std::max(families.horizon[i], families.horizon[j]);
+      }
+  }
+
+  void FamilyCoefficients::resize(const LocalIndex n, const FamilyShape &shape)
+  {
+    for (unsigned int a = 0; a < shape.n_sums; ++a)
+      {
+        sum[a].resize(n);
+        if (shape.own_force_weights)
+          force_weight[a].resize(n);
+      }
+    stiffness.resize(n);
+    report = {};
+  }
+
+  template struct FamilyView<2>;
+  template struct FamilyView<3>;
+} // namespace perideal

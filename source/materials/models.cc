@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/materials/extended_ordinary.h>
+#include <perideal/materials/influence_function.h>
+#include <perideal/materials/models.h>
+#include <perideal/materials/ordinary.h>
+
+namespace perideal
+{
+  namespace
+  {
+    template <int dim>
+    using Factory = std::unique_ptr<LinearModel<dim>> (*)(const ModelParameters &, const double);
+
+    /// The list of models: a new one is one file and one line here.
+    template <int dim>
+    const Registry<Factory<dim>> &models()
+    {
+      static const Registry<Factory<dim>> list(
+        "Material/Model",
+        {{"ordinary",
+          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+            return std::make_unique<Ordinary<dim>>(InfluenceFunction(p.influence_function), thickness);
+          }},
+         {"extended ordinary",
+          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+            return std::make_unique<ExtendedOrdinary<dim>>(ExtendedOrdinary<dim>::form_of(p.form),
+                                                           InfluenceFunction(p.influence_function),
+                                                           thickness);
+          }}});
+      return list;
+    }
+
+    std::string selection(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const std::string &name : names)
+        text += (text.empty() ? "" : "|") + name;
+      return text;
+    }
+  } // namespace
+
+  void ModelParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Selection;
+    prm.enter_subsection("Material");
+    prm.add_parameter("Model",
+                      model,
+                      "What a bond does: ordinary: state-based peridynamics without corrections; extended "
+                      "ordinary: with multipliers that make families of any shape exact for uniform strain",
+                      Selection(selection(models<2>().names())));
+    prm.add_parameter("Form",
+                      form,
+                      "Force of the extended ordinary model: paper: as published, not the gradient of an energy, "
+                      "non-symmetric; energy: the gradient of the strain energy, symmetric",
+                      Selection(selection(ExtendedOrdinary<2>::form_names())));
+    prm.leave_subsection();
+
+    prm.enter_subsection("Nodes");
+    prm.add_parameter("Influence function",
+                      influence_function,
+                      "How much a bond counts by its length over the horizon: 1, 1/s, exp(-(2s)^2), or the cubic "
+                      "B-spline that vanishes at s = 1",
+                      Selection(selection(InfluenceFunction::names())));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters &parameters, const double thickness)
+  {
+    return models<dim>().get(parameters.model)(parameters, thickness);
+  }
+
+  template std::unique_ptr<LinearModel<2>> create_model(const ModelParameters &, const double);
+  template std::unique_ptr<LinearModel<3>> create_model(const ModelParameters &, const double);
+} // namespace perideal

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/moment_conditions.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// The directions multiplied in each monomial: XOSB eqs. (43), (37), (63), (57).
+    template <int dim, int order>
+    struct Monomials;
+
+    template <>
+    struct Monomials<2, 2>
+    {
+      static constexpr int factors[3][2] = {{0, 0}, {1, 1}, {0, 1}};
+    };
+
+    template <>
+    struct Monomials<3, 2>
+    {
+      static constexpr int factors[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    };
+
+    template <>
+    struct Monomials<2, 4>
+    {
+      static constexpr int factors[5][4] = {{0, 0, 0, 0}, {1, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}, {1, 1, 1, 0}};
+    };
+
+    template <>
+    struct Monomials<3, 4>
+    {
+      static constexpr int factors[15][4] = {{0, 0, 0, 0},
+                                             {1, 1, 1, 1},
+                                             {2, 2, 2, 2},
+                                             {0, 0, 1, 1},
+                                             {1, 1, 2, 2},
+                                             {2, 2, 0, 0},
+                                             {0, 0, 0, 1},
+                                             {0, 0, 0, 2},
+                                             {1, 1, 1, 0},
+                                             {1, 1, 1, 2},
+                                             {2, 2, 2, 0},
+                                             {2, 2, 2, 1},
+                                             {0, 0, 1, 2},
+                                             {1, 1, 0, 2},
+                                             {2, 2, 0, 1}};
+    };
+
+    /// r of a monomial: how often each direction occurs decides (eqs. 41, 61).
+    double target_of(const int (&factors)[2])
+    {
+      return factors[0] == factors[1] ? 1. : 0.;
+    }
+
+    double target_of(const int (&factors)[4])
+    {
+      if (factors[0] != factors[1] || factors[2] != factors[3])
+        return 0.;
+      return factors[0] == factors[2] ? 1.5 : 0.5;
+    }
+
+    /// Relative size of eigenvalues that count as zero in the pseudo-inverse.
+    constexpr double rank_tolerance = 1e-10;
+  } // namespace
+
+  template <int dim, int order>
+  void MomentConditions<dim, order>::reinit(const FamilyView<dim> &family)
+  {
+    using Array = Eigen::Map<const Eigen::ArrayXd>;
+    const Eigen::Index n = family.size;
+    horizon_square       = family.horizon * family.horizon;
+    volume               = Array(family.volume.data(), n);
+    monomials.resize(n, n_conditions);
+    const Array length_square(family.length_square.data(), n);
+    for (int k = 0; k < n_conditions; ++k)
+      {
+        const auto &factors = Monomials<dim, order>::factors[k];
+        auto        column  = monomials.col(k).array();
+        column = Array(family.bond[factors[0]].data(), n) * Array(family.bond[factors[1]].data(), n);
+        if constexpr (order == 4)
+          column *= Array(family.bond[factors[2]].data(), n) * Array(family.bond[factors[3]].data(), n) /
+                    length_square;
+        column /= horizon_square;
+        target[k] = target_of(factors) / horizon_square;
+      }
+    gram.noalias() = monomials.transpose() * (monomials.array().colwise() * volume).matrix();
+    scaling        = gram.diagonal().array().max(1e-300).sqrt().inverse();
+    gram           = scaling.asDiagonal() * gram * scaling.asDiagonal();
+  }
+
+  template <int dim, int order>
+  typename MomentConditions<dim, order>::Vector
+  MomentConditions<dim, order>::miss(const Eigen::Ref<const Eigen::ArrayXd> &weights) const
+  {
+    return target - monomials.transpose() * (weights * volume).matrix();
+  }
+
+  template <int dim, int order>
+  typename MomentConditions<dim, order>::Vector
+  MomentConditions<dim, order>::solve(const Vector &right_hand_side) const
+  {
+    const Vector                scaled = scaling.cwiseProduct(right_hand_side);
+    const Eigen::LLT<Matrix>    cholesky(gram);
+    // The diagonal of the factor bounds the smallest eigenvalue from above;
+    // a small one may hide a singular system, which needs the slow way.
+    if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().minCoeff() > 1e-3)
+      return scaling.cwiseProduct(cholesky.solve(scaled));
+
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
+    Vector coordinates = eigen.eigenvectors().transpose() * scaled;
+    for (int k = 0; k < n_conditions; ++k)
+      {
+        const double value = eigen.eigenvalues()[k];
+        coordinates[k] = value > rank_tolerance * eigen.eigenvalues()[n_conditions - 1] ? coordinates[k] / value : 0.;
+      }
+    return scaling.cwiseProduct(eigen.eigenvectors() * coordinates);
+  }
+
+  template <int dim, int order>
+  double MomentConditions<dim, order>::correct(std::vector<double> &weights) const
+  {
+    Weights w(weights.data(), weights.size());
+    // The second pass removes what round-off left of the conditions.
+    for (int pass = 0; pass < 2; ++pass)
+      w += (monomials * solve(miss(w))).array();
+    return miss(w).cwiseAbs().maxCoeff() * horizon_square;
+  }
+
+  template <int dim, int order>
+  typename MomentConditions<dim, order>::Vector
+  MomentConditions<dim, order>::bounded_multipliers(const Eigen::Ref<const Eigen::ArrayXd> &spherical,
+                                                    const Vector                           &target,
+                                                    const double                            regularisation,
+                                                    Vector                                  multipliers) const
+  {
+    // The bounded minimiser is w = max(0, ws + lambda.m), where lambda minimises
+    // the convex dual 1/2 sum V w^2 - r.lambda + regularisation/2 |lambda|^2
+    // (lambda in scaled coordinates): Newton with the active set as it stands.
+    const Vector scaled_target = scaling.cwiseProduct(target);
+    const auto   scaled        = [&](const Vector &lambda) -> Vector { return scaling.cwiseProduct(lambda); };
+    Vector       lambda        = multipliers.cwiseQuotient(scaling);
+    const auto   weights_of    = [&](const Vector &l) -> Eigen::ArrayXd {
+      return (spherical + (monomials * scaled(l)).array()).max(0.);
+    };
+    const auto dual = [&](const Vector &l, const Eigen::ArrayXd &w) {
+      return 0.5 * (w.square() * volume).sum() - scaled_target.dot(l) + 0.5 * regularisation * l.squaredNorm();
+    };
+
+    Eigen::ArrayXd weights = weights_of(lambda);
+    double         value   = dual(lambda, weights);
+    const double   scale   = scaled_target.cwiseAbs().maxCoeff();
+    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+      {
+        const Vector gradient = scaled(monomials.transpose() * (weights * volume).matrix()) - scaled_target +
+                                regularisation * lambda;
+        if (gradient.cwiseAbs().maxCoeff() <= 1e-15 * scale)
+          break;
+        const Eigen::ArrayXd active = (weights > 0).select(volume, 0.);
+        Matrix               hessian =
+          scaling.asDiagonal() * (monomials.transpose() * (monomials.array().colwise() * active).matrix()) *
+          scaling.asDiagonal();
+        hessian.diagonal().array() += std::max(regularisation, 1e-13);
+        const Vector step      = Eigen::LDLT<Matrix>(hessian).solve(-gradient);
+        const double slope     = gradient.dot(step);
+        double       length    = 1;
+        bool         decreased = false;
+        for (; length > 1e-6 && !decreased; length *= 0.5)
+          {
+            const Vector         trial         = lambda + length * step;
+            const Eigen::ArrayXd trial_weights = weights_of(trial);
+            const double         trial_value   = dual(trial, trial_weights);
+            if (trial_value <= value + 1e-4 * length * slope)
+              {
+                lambda    = trial;
+                weights   = trial_weights;
+                value     = trial_value;
+                decreased = true;
+              }
+          }
+        if (!decreased)
+          break;
+      }
+    return scaled(lambda);
+  }
+
+  template <int dim, int order>
+  double MomentConditions<dim, order>::correct_nonnegative(const std::vector<double> &spherical,
+                                                           std::vector<double>       &weights) const
+  {
+    const Eigen::Map<const Eigen::ArrayXd> ws(spherical.data(), spherical.size());
+    Weights                                w(weights.data(), weights.size());
+
+    const auto evaluate = [&](const double regularisation) {
+      // Aiming past the target by what was missed removes the regularisation's trace.
+      Vector aim = target, multipliers = Vector::Zero();
+      double missed = 0;
+      for (int pass = 0; pass < 3; ++pass)
+        {
+          multipliers = bounded_multipliers(ws, aim, regularisation, multipliers);
+          w           = (ws + (monomials * multipliers).array()).max(0.);
+          const Vector difference = miss(w);
+          missed                  = difference.cwiseAbs().maxCoeff() * horizon_square;
+          if (missed <= tolerance || regularisation > 1e-6)
+            break;
+          aim += difference;
+        }
+      return missed;
+    };
+    const double missed = evaluate(1e-12);
+    if (missed <= tolerance)
+      return missed;
+    // No non-negative weights meet the conditions: weigh their miss against
+    // the distance from the spherical weights.
+    return evaluate(1e-3 / n_conditions);
+  }
+
+  template class MomentConditions<2, 2>;
+  template class MomentConditions<2, 4>;
+  template class MomentConditions<3, 2>;
+  template class MomentConditions<3, 4>;
+} // namespace perideal

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/mesh/create_mesh.h>
+#include <perideal/mesh/generators.h>
+#include <perideal/mesh/manifolds.h>
+#include <perideal/mesh/mesh_checks.h>
+#include <perideal/mesh/mesh_file.h>
+#include <perideal/mesh/read_gmsh.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    /// "7,680"
+    std::string
+    with_commas(const std::uint64_t number)
+    {
+      std::string text = std::to_string(number);
+      for (int position = static_cast<int>(text.size()) - 3; position > 0; position -= 3)
+        text.insert(position, ",");
+      return text;
+    }
+
+    template <int dim>
+    void
+    fill(const MeshParameters &parameters, MPI_Comm communicator, const std::string &scene_directory,
+         CoarseMesh<dim> &coarse)
+    {
+      if (!parameters.generator.empty())
+        generate_mesh(parameters, coarse);
+      else
+      {
+        const MeshFile file = load_mesh_file(parameters.file, scene_directory, dim, communicator);
+        read_gmsh(file.text, file.path, coarse);
+      }
+    }
+
+    /// Takes over names of groups that have members, and the ids of all.
+    template <int dim>
+    void
+    take_groups(const CoarseMesh<dim> &coarse, Mesh<dim> &mesh)
+    {
+      for (const dealii::types::boundary_id id : coarse.triangulation.get_boundary_ids())
+        mesh.boundary_ids.insert(id);
+      for (const auto &cell : coarse.triangulation.active_cell_iterators())
+        mesh.material_ids.insert(cell->material_id());
+      for (const auto &name : coarse.boundary_names)
+        if (mesh.boundary_ids.count(name.second) > 0)
+          mesh.boundary_names.insert(name);
+      for (const auto &name : coarse.material_names)
+        if (mesh.material_ids.count(name.second) > 0)
+          mesh.material_names.insert(name);
+    }
+
+    /// Cells are numbered with 32 bits.
+    template <int dim>
+    void
+    check_refinements(const MeshParameters &parameters, const CoarseMesh<dim> &coarse)
+    {
+      const double n_cells = std::ldexp(static_cast<double>(coarse.triangulation.n_active_cells()),
+                                        dim * parameters.refinements);
+      if (n_cells > 4e9)
+        throw InputError("so many refinements make " + std::to_string(n_cells) + " cells")
+            .parameter("Mesh/Refinements")
+            .allowed("up to 4,000,000,000 cells in all");
+    }
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Mesh<dim>>
+  create_mesh(const MeshParameters &parameters, MPI_Comm communicator, const std::string &scene_directory)
+  {
+    parameters.check();
+    CoarseMesh<dim> coarse;
+    fill(parameters, communicator, scene_directory, coarse);
+    check_coarse_mesh(coarse);
+    check_refinements(parameters, coarse);
+
+    auto mesh = std::make_unique<Mesh<dim>>(communicator);
+    take_groups(coarse, *mesh);
+    for (const auto &cylinder : parameters.cylinders)
+      coarse.cylinders[mesh->boundary_id(cylinder.first, "Mesh/Cylinders")] = cylinder.second;
+    check_cylinders(coarse);
+    mesh->cylinders   = coarse.cylinders;
+    mesh->refinements = parameters.refinements;
+    mesh->thickness   = dim == 2 ? parameters.thickness : 1.;
+
+    attach_manifolds(coarse.cylinders, coarse.triangulation);
+    mesh->triangulation.copy_triangulation(coarse.triangulation);
+    coarse.triangulation.clear();
+    mesh->triangulation.refine_global(parameters.refinements);
+    mesh->description = coarse.origin + ", " + with_commas(mesh->triangulation.n_global_active_cells())
+                        + (dim == 2 ? " quads" : " hexes");
+    return mesh;
+  }
+
+  template <int dim>
+  void
+  copy_refined(const Mesh<dim> &mesh, const unsigned int further_refinements,
+               dealii::Triangulation<dim> &copy)
+  {
+    const auto [vertices, cells, groups] = dealii::GridTools::get_coarse_mesh_description(mesh.triangulation);
+    copy.create_triangulation(vertices, cells, groups);
+    attach_manifolds(mesh.cylinders, copy);
+    copy.refine_global(mesh.refinements + further_refinements);
+  }
+
+  template std::unique_ptr<Mesh<2>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
+  template std::unique_ptr<Mesh<3>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
+  template void copy_refined(const Mesh<2> &, const unsigned int, dealii::Triangulation<2> &);
+  template void copy_refined(const Mesh<3> &, const unsigned int, dealii::Triangulation<3> &);
+} // namespace perideal

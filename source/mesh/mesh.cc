@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/mesh/mesh.h>
+
+#include <charconv>
+
+namespace perideal
+{
+  namespace
+  {
+    template <typename Id>
+    std::string
+    name_of(const std::map<std::string, Id> &names, const Id id)
+    {
+      for (const auto &entry : names)
+        if (entry.second == id)
+          return entry.first;
+      return std::to_string(id);
+    }
+
+    /// Looks a name or number up among the groups of one kind.
+    template <typename Id>
+    Id
+    find_id(const std::string &name_or_id, const std::string &kind, const std::map<std::string, Id> &names,
+            const std::set<Id> &ids, const std::string &parameter)
+    {
+      const auto named = names.find(name_or_id);
+      if (named != names.end())
+        return named->second;
+
+      Id          number = 0;
+      const char *end    = name_or_id.data() + name_or_id.size();
+      const auto  result = std::from_chars(name_or_id.data(), end, number);
+      if (result.ec == std::errc() && result.ptr == end && ids.count(number) > 0)
+        return number;
+
+      std::vector<std::string> choices;
+      for (const Id id : ids)
+        choices.push_back(name_of(names, id));
+      throw InputError("the mesh has no " + kind + " of this name or number")
+          .parameter(parameter)
+          .given(name_or_id)
+          .allowed(join_choices(choices))
+          .nearest(nearest_name(name_or_id, choices));
+    }
+  } // namespace
+
+  template <int dim>
+  Mesh<dim>::Mesh(MPI_Comm communicator)
+      : triangulation(communicator, dealii::Triangulation<dim>::none)
+  {
+  }
+
+  template <int dim>
+  dealii::types::boundary_id
+  Mesh<dim>::boundary_id(const std::string &name_or_id, const std::string &parameter) const
+  {
+    return find_id(name_or_id, "boundary", boundary_names, boundary_ids, parameter);
+  }
+
+  template <int dim>
+  dealii::types::material_id
+  Mesh<dim>::material_id(const std::string &name_or_id, const std::string &parameter) const
+  {
+    return find_id(name_or_id, "group of cells", material_names, material_ids, parameter);
+  }
+
+  template <int dim>
+  std::string
+  Mesh<dim>::boundary_name(const dealii::types::boundary_id id) const
+  {
+    return name_of(boundary_names, id);
+  }
+
+  template class Mesh<2>;
+  template class Mesh<3>;
+} // namespace perideal

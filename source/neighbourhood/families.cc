@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/neighbourhood/families.h>
+#include <perideal/neighbourhood/halo.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Coordinates of a leaf's points, one array a direction, so that the pair test below vectorises.
+    template <int dim>
+    struct LeafPoints
+    {
+      double     coordinate[dim][PointTree<dim>::leaf_size];
+      double     reach_square[PointTree<dim>::leaf_size];
+      LocalIndex number = 0;
+    };
+
+    template <int dim>
+    LeafPoints<dim> load_leaf(const PointTree<dim>                  &tree,
+                              const LocalIndex                       leaf,
+                              const std::vector<dealii::Point<dim>> &position,
+                              const std::vector<double>             &horizon,
+                              const LocalIndex                       offset)
+    {
+      LeafPoints<dim>  points;
+      const LocalIndex begin = tree.leaf_begin(leaf);
+      points.number          = tree.leaf_end(leaf) - begin;
+      for (LocalIndex k = 0; k < points.number; ++k)
+        {
+          for (int d = 0; d < dim; ++d)
+            points.coordinate[d][k] = position[offset + begin + k][d];
+          points.reach_square[k] = horizon[offset + begin + k] * horizon[offset + begin + k];
+        }
+      return points;
+    }
+
+    /// Appends the points of a leaf that are in the family of @p point.
+    template <int dim>
+    void append_neighbours(const LeafPoints<dim>    &leaf,
+                           const LocalIndex          first_number,
+                           const dealii::Point<dim> &point,
+                           const double              reach_square,
+                           const LocalIndex          self,
+                           std::vector<LocalIndex>  &family)
+    {
+      double excess[PointTree<dim>::leaf_size];
+      for (LocalIndex k = 0; k < leaf.number; ++k)
+        {
+          double length_square = 0;
+          for (int d = 0; d < dim; ++d)
+            {
+              const double difference = leaf.coordinate[d][k] - point[d];
+              length_square += difference * difference;
+            }
+          excess[k] = length_square - std::max(reach_square, leaf.reach_square[k]);
+        }
+      for (LocalIndex k = 0; k < leaf.number; ++k)
+        if (excess[k] <= 0 && first_number + k != self)
+          family.push_back(first_number + k);
+    }
+  } // namespace
+
+  template <int dim>
+  Families<dim>::Families(const NodeCloud<dim> &nodes)
+    : position(nodes.position)
+    , volume(nodes.volume)
+    , horizon(nodes.horizon)
+    , material(nodes.material)
+    , communicator(nodes.communicator)
+    , n_owned_nodes(nodes.size())
+    , first_global(nodes.first_global)
+    , n_global(nodes.n_global)
+  {
+    search(nodes);
+    drop_unused_ghosts();
+  }
+
+  template <int dim>
+  void Families<dim>::search(const NodeCloud<dim> &nodes)
+  {
+    const PointTree<dim>            tree(nodes.position, nodes.horizon);
+    std::vector<dealii::Point<dim>> ghost_position;
+    std::vector<double>             ghost_horizon;
+    for (const HaloNode<dim> &ghost : exchange_halo(nodes, tree))
+      {
+        ghost_number.push_back(ghost.number);
+        ghost_owner.push_back(ghost.owner);
+        ghost_position.push_back(ghost.position);
+        ghost_horizon.push_back(ghost.horizon);
+        position.push_back(ghost.position);
+        volume.push_back(ghost.volume);
+        horizon.push_back(ghost.horizon);
+        material.push_back(ghost.material);
+      }
+    const PointTree<dim> ghost_tree(ghost_position, ghost_horizon);
+
+    row.assign(1, 0);
+    row.reserve(n_owned_nodes + 1);
+    std::vector<LocalIndex>                                       leaves;
+    std::array<std::vector<LocalIndex>, PointTree<dim>::leaf_size> family;
+    for (LocalIndex leaf = 0; leaf < tree.n_leaves(); ++leaf)
+      {
+        const LocalIndex begin = tree.leaf_begin(leaf), end = tree.leaf_end(leaf);
+        for (auto &members : family)
+          members.clear();
+        const auto collect = [&](const PointTree<dim> &others, const LocalIndex offset) {
+          others.find_leaves(tree.leaf_box(leaf), leaves);
+          for (const LocalIndex other : leaves)
+            {
+              const auto points = load_leaf(others, other, position, horizon, offset);
+              for (LocalIndex i = begin; i < end; ++i)
+                append_neighbours(points,
+                                  offset + others.leaf_begin(other),
+                                  position[i],
+                                  horizon[i] * horizon[i],
+                                  i,
+                                  family[i - begin]);
+            }
+        };
+        collect(tree, 0);
+        collect(ghost_tree, n_owned_nodes);
+        for (LocalIndex i = begin; i < end; ++i)
+          {
+            neighbour.insert(neighbour.end(), family[i - begin].begin(), family[i - begin].end());
+            row.push_back(neighbour.size());
+          }
+      }
+    neighbour.shrink_to_fit();
+  }
+
+  template <int dim>
+  void Families<dim>::drop_unused_ghosts()
+  {
+    if (ghost_number.empty())
+      return;
+    const LocalIndex  n_candidates = ghost_number.size();
+    std::vector<bool> used(n_candidates, false);
+    for (const LocalIndex j : neighbour)
+      if (j >= n_owned_nodes)
+        used[j - n_owned_nodes] = true;
+    std::vector<LocalIndex> new_number(n_candidates);
+    LocalIndex              n_used = 0;
+    for (LocalIndex g = 0; g < n_candidates; ++g)
+      if (used[g])
+        {
+          new_number[g]                      = n_owned_nodes + n_used;
+          ghost_number[n_used]               = ghost_number[g];
+          ghost_owner[n_used]                = ghost_owner[g];
+          position[n_owned_nodes + n_used]   = position[n_owned_nodes + g];
+          volume[n_owned_nodes + n_used]     = volume[n_owned_nodes + g];
+          horizon[n_owned_nodes + n_used]    = horizon[n_owned_nodes + g];
+          material[n_owned_nodes + n_used++] = material[n_owned_nodes + g];
+        }
+    ghost_number.resize(n_used);
+    ghost_owner.resize(n_used);
+    position.resize(n_owned_nodes + n_used);
+    volume.resize(n_owned_nodes + n_used);
+    horizon.resize(n_owned_nodes + n_used);
+    material.resize(n_owned_nodes + n_used);
+    for (LocalIndex &j : neighbour)
+      if (j >= n_owned_nodes)
+        j = new_number[j - n_owned_nodes];
+  }
+
+  template <int dim>
+  GlobalIndex Families<dim>::n_bonds() const
+  {
+    return dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(neighbour.size()), communicator) / 2;
+  }
+
+  template <int dim>
+  typename Families<dim>::Statistics Families<dim>::statistics() const
+  {
+    LocalIndex smallest = dealii::numbers::invalid_unsigned_int, largest = 0;
+    for (LocalIndex i = 0; i < n_owned_nodes; ++i)
+      {
+        smallest = std::min(smallest, size(i));
+        largest  = std::max(largest, size(i));
+      }
+    Statistics result;
+    result.min  = dealii::Utilities::MPI::min(smallest, communicator);
+    result.max  = dealii::Utilities::MPI::max(largest, communicator);
+    result.mean = n_global == 0 ? 0. : 2. * n_bonds() / n_global;
+    return result;
+  }
+
+  template <int dim>
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+  Families<dim>::make_partitioner(const unsigned int n_components) const
+  {
+    dealii::IndexSet owned(n_global * n_components), ghosts(n_global * n_components);
+    owned.add_range(first_global * n_components, (first_global + n_owned_nodes) * n_components);
+    for (const GlobalIndex number : ghost_number)
+      ghosts.add_range(number * n_components, (number + 1) * n_components);
+    ghosts.compress();
+    return std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+  }
+
+  template <int dim>
+  std::size_t Families<dim>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(position) + memory_consumption(volume) + memory_consumption(horizon) +
+           memory_consumption(material) + memory_consumption(row) + memory_consumption(neighbour);
+  }
+
+  template class Families<2>;
+  template class Families<3>;
+} // namespace perideal

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/nodes/nodes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Numbers of the points in the order in which a Hilbert curve visits them.
+    template <int dim>
+    std::vector<LocalIndex> order_along_curve(const std::vector<dealii::Point<dim>> &points)
+    {
+      const auto                                         keys = dealii::Utilities::inverse_Hilbert_space_filling_curve(points);
+      std::vector<std::pair<std::uint64_t, LocalIndex>> order(points.size());
+      for (LocalIndex i = 0; i < points.size(); ++i)
+        order[i] = {dealii::Utilities::pack_integers<dim>(keys[i], 64 / dim), i};
+      std::sort(order.begin(), order.end());
+      std::vector<LocalIndex> result(points.size());
+      std::transform(order.begin(), order.end(), result.begin(), [](const auto &entry) { return entry.second; });
+      return result;
+    }
+
+    template <typename T>
+    void reorder(std::vector<T> &values, const std::vector<LocalIndex> &order)
+    {
+      std::vector<T> result(values.size());
+      for (std::size_t i = 0; i < order.size(); ++i)
+        result[i] = values[order[i]];
+      values.swap(result);
+    }
+  } // namespace
+
+  void NodeParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Nodes");
+    prm.add_parameter("Horizon factor",
+                      horizon_factor,
+                      "Horizon of a node over its spacing, the edge of the square or cube of its volume; "
+                      "1.5 to 6 make sense [-]",
+                      dealii::Patterns::Double());
+    prm.leave_subsection();
+  }
+
+  void NodeParameters::check() const
+  {
+    // Below one spacing a node of a uniform mesh reaches no neighbour at all.
+    if (!(horizon_factor >= 1.01 && horizon_factor <= 20))
+      throw InputError("this horizon makes no families")
+        .parameter("Nodes/Horizon factor")
+        .allowed("1.01 to 20; 3.01 is usual");
+  }
+
+  template <int dim>
+  void NodeCloud<dim>::number()
+  {
+    const GlobalIndex n_owned = position.size();
+    first_global              = 0;
+    const int error = MPI_Exscan(&n_owned, &first_global, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    AssertThrowMPI(error);
+    n_global = dealii::Utilities::MPI::sum(n_owned, communicator);
+  }
+
+  template <int dim>
+  Nodes<dim>::Nodes(const Mesh<dim> &mesh, const NodeParameters &parameters)
+    : node_of_cell(mesh.triangulation.n_active_cells(), dealii::numbers::invalid_unsigned_int)
+  {
+    auto &position = this->position;
+    auto &volume   = this->volume;
+    auto &material = this->material;
+
+    parameters.check();
+    this->communicator       = mesh.triangulation.get_communicator();
+    const LocalIndex n_owned = mesh.triangulation.n_locally_owned_active_cells();
+    position.reserve(n_owned);
+    volume.reserve(n_owned);
+    material.reserve(n_owned);
+    std::vector<unsigned int> cells;
+
+    // Two Gauss points integrate measure and first moment of a bilinear or
+    // trilinear cell exactly; the mean of the vertices is not the centroid.
+    const dealii::MappingQ1<dim>  mapping;
+    const dealii::FE_Nothing<dim> no_element;
+    const dealii::QGauss<dim>     quadrature(2);
+    dealii::FEValues<dim>         values(mapping,
+                                 no_element,
+                                 quadrature,
+                                 dealii::update_JxW_values | dealii::update_quadrature_points);
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          double             measure = 0;
+          dealii::Point<dim> moment;
+          for (const unsigned int q : values.quadrature_point_indices())
+            {
+              measure += values.JxW(q);
+              moment += values.JxW(q) * values.quadrature_point(q);
+            }
+          position.push_back(moment / measure);
+          volume.push_back(measure);
+          material.push_back(cell->material_id());
+          cells.push_back(cell->active_cell_index());
+        }
+
+    const auto order = order_along_curve(position);
+    reorder(position, order);
+    reorder(volume, order);
+    reorder(material, order);
+    reorder(cells, order);
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      {
+        node_of_cell[cells[i]] = i;
+        this->spacing.push_back(std::pow(volume[i], 1. / dim));
+        this->horizon.push_back(parameters.horizon_factor * this->spacing[i]);
+        volume[i] *= mesh.thickness;
+      }
+
+    this->number();
+  }
+
+  template struct NodeCloud<2>;
+  template struct NodeCloud<3>;
+  template struct Nodes<2>;
+  template struct Nodes<3>;
+} // namespace perideal

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/parameters/load_parameters.h>
+#include <perideal/parameters/parameter_file.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    const std::array<std::string, 3> axes = {{"x", "y", "z"}};
+
+    /// Functions of the components a scene of this dimension has; a z component in 2-D is an error.
+    template <int dim>
+    std::array<SpaceTimeFunction<dim>, dim> make_components(const std::array<std::string, 3> &expressions,
+                                                            const std::string                &prefix)
+    {
+      if (dim == 2 && !expressions[2].empty())
+        throw InputError("a two-dimensional scene has no z component").parameter(prefix + "z");
+      std::array<SpaceTimeFunction<dim>, dim> result;
+      for (int d = 0; d < dim; ++d)
+        result[d] = SpaceTimeFunction<dim>(expressions[d], prefix + axes[d]);
+      return result;
+    }
+
+    template <typename Functions>
+    bool any_present(const Functions &functions)
+    {
+      return std::any_of(functions.begin(), functions.end(), [](const auto &f) { return f.is_present(); });
+    }
+
+    template <int dim>
+    BoundaryCondition<dim> make_condition(const BoundaryConditionText &text)
+    {
+      const std::string      section = "Boundary conditions/" + text.name + "/";
+      BoundaryCondition<dim> result;
+      result.name       = text.name;
+      result.boundaries = dealii::Utilities::split_string_list(text.boundary, ',');
+      if (text.boundary.empty())
+        throw InputError("the condition names no boundary")
+          .parameter(section + "Boundary")
+          .allowed("Gmsh physical names or ids, separated by commas");
+      result.displacement = make_components<dim>(text.displacement, section + "u_");
+      result.traction     = make_components<dim>(text.traction, section + "t_");
+      result.pressure     = SpaceTimeFunction<dim>(text.pressure, section + "Pressure");
+
+      if (!result.prescribes_displacement() && !result.prescribes_traction())
+        throw InputError("the condition prescribes nothing")
+          .parameter("Boundary conditions/" + text.name)
+          .allowed("at least one of u_x, u_y, u_z, t_x, t_y, t_z, Pressure");
+      for (int d = 0; d < dim; ++d)
+        if (result.displacement[d].is_present() && result.traction[d].is_present())
+          throw InputError("displacement and traction of one component are both prescribed")
+            .parameter(section + "t_" + axes[d])
+            .hint("remove u_" + axes[d] + " or t_" + axes[d]);
+      if (result.pressure.is_present() && result.prescribes_displacement())
+        throw InputError("a pressure acts on all components, some of which are held")
+          .parameter(section + "Pressure")
+          .hint("give tractions for the free components instead");
+      return result;
+    }
+  } // namespace
+
+  void LoadParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
+  {
+    prm.enter_subsection("Boundary conditions");
+    prm.add_parameter("Displacement treatment",
+                      displacement_treatment,
+                      "How prescribed displacements reach the nodes: layer: nodes of the cells at the boundary "
+                      "take the boundary's value; reference: they take the reference solution's value at the "
+                      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary",
+                      dealii::Patterns::Selection("layer|reference|mirror"));
+    prm.add_parameter("Rigid body motions",
+                      rigid_body_motions,
+                      "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "
+                      "the solution whose mean translation and rotation are zero (the loads must balance)",
+                      dealii::Patterns::Selection("error|remove"));
+    for (const std::string &name : file.subsections("Boundary conditions"))
+      {
+        conditions.emplace_back();
+        conditions.back().name = name;
+      }
+    // References into the vector stay valid from here on.
+    for (BoundaryConditionText &condition : conditions)
+      {
+        prm.enter_subsection(condition.name);
+        prm.add_parameter("Boundary",
+                          condition.boundary,
+                          "Gmsh physical names or ids of the boundary, separated by commas");
+        for (unsigned int d = 0; d < 3; ++d)
+          prm.add_parameter("u_" + axes[d],
+                            condition.displacement[d],
+                            "Prescribed displacement along " + axes[d] +
+                              " [m], a formula in x, y, z, t; empty: free");
+        for (unsigned int d = 0; d < 3; ++d)
+          prm.add_parameter("t_" + axes[d],
+                            condition.traction[d],
+                            "Traction along " + axes[d] + " [Pa], a formula in x, y, z, t; empty: none");
+        prm.add_parameter("Pressure",
+                          condition.pressure,
+                          "Pressure towards the body [Pa], a formula in x, y, z, t; empty: none");
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Body force");
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter("b_" + axes[d],
+                        body_force[d],
+                        "Force per volume along " + axes[d] + " [N/m^3], a formula in x, y, z, t; empty: none");
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  bool BoundaryCondition<dim>::prescribes_displacement() const
+  {
+    return any_present(displacement);
+  }
+
+  template <int dim>
+  bool BoundaryCondition<dim>::prescribes_traction() const
+  {
+    return any_present(traction) || pressure.is_present();
+  }
+
+  template <int dim>
+  Loads<dim>::Loads(const LoadParameters &parameters)
+    : body_force(make_components<dim>(parameters.body_force, "Body force/b_"))
+  {
+    for (const BoundaryConditionText &text : parameters.conditions)
+      conditions.push_back(make_condition<dim>(text));
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> Loads<dim>::traction(const BoundaryCondition<dim> &condition,
+                                              const dealii::Point<dim>     &point,
+                                              const dealii::Tensor<1, dim> &normal,
+                                              const double                  time)
+  {
+    dealii::Tensor<1, dim> result;
+    for (int d = 0; d < dim; ++d)
+      if (condition.traction[d].is_present())
+        result[d] = condition.traction[d].value(point, time);
+    if (condition.pressure.is_present())
+      result -= condition.pressure.value(point, time) * normal;
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> Loads<dim>::body_force_at(const dealii::Point<dim> &point, const double time) const
+  {
+    dealii::Tensor<1, dim> result;
+    for (int d = 0; d < dim; ++d)
+      if (body_force[d].is_present())
+        result[d] = body_force[d].value(point, time);
+    return result;
+  }
+
+  template struct BoundaryCondition<2>;
+  template struct BoundaryCondition<3>;
+  template struct Loads<2>;
+  template struct Loads<3>;
+} // namespace perideal

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/parameters/parameter_file.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace perideal
+{
+  namespace
+  {
+    std::string join(const std::vector<std::string> &parts)
+    {
+      std::string text;
+      for (const std::string &part : parts)
+        text += (text.empty() ? "" : "/") + part;
+      return text;
+    }
+
+    std::vector<std::string> split_path(const std::string &path)
+    {
+      return path.empty() ? std::vector<std::string>() : dealii::Utilities::split_string_list(path, '/');
+    }
+
+    /// Removes a comment and surrounding white space.
+    std::string clean(const std::string &line)
+    {
+      return dealii::Utilities::trim(line.substr(0, line.find('#')));
+    }
+
+    /// True when @p line starts with @p keyword as a word; @p rest is what follows.
+    bool starts_with(const std::string &line, const std::string &keyword, std::string &rest)
+    {
+      if (line.compare(0, keyword.size(), keyword) != 0)
+        return false;
+      if (line.size() > keyword.size() && line[keyword.size()] != ' ' && line[keyword.size()] != '\t')
+        return false;
+      rest = dealii::Utilities::trim(line.substr(keyword.size()));
+      return true;
+    }
+
+    using Tree = boost::property_tree::ptree;
+
+    /// Everything declared, with default, pattern and description, as ParameterHandler keeps it.
+    Tree declarations(const dealii::ParameterHandler &prm)
+    {
+      std::stringstream json;
+      prm.print_parameters(json, dealii::ParameterHandler::JSON);
+      Tree tree;
+      boost::property_tree::read_json(json, tree);
+      return tree;
+    }
+
+    bool is_parameter(const Tree &entry)
+    {
+      return entry.find("pattern_description") != entry.not_found();
+    }
+
+    /// Names of the parameters, or of the subsections, directly in a section.
+    std::vector<std::string> declared_names(const Tree &section, const bool parameters)
+    {
+      std::vector<std::string> result;
+      for (const auto &child : section)
+        if (is_parameter(child.second) == parameters)
+          result.push_back(child.first);
+      return result;
+    }
+
+    std::string title(const std::string &section)
+    {
+      return section.empty() ? "the top of the file" : "section \"" + section + "\"";
+    }
+
+    /// The declarations of the section an assignment stands in.
+    const Tree &find_section(const Tree &all, const ParameterFile::Assignment &assignment)
+    {
+      const Tree *section = &all;
+      std::string above;
+      for (const std::string &part : split_path(assignment.section))
+        {
+          const auto child = section->find(part);
+          if (child == section->not_found() || is_parameter(child->second))
+            {
+              const auto known = declared_names(*section, false);
+              throw InputError("unknown section in " + title(above))
+                .location(assignment.origin)
+                .given("subsection " + part)
+                .allowed(join_choices(known))
+                .nearest(nearest_name(part, known));
+            }
+          section = &child->second;
+          above += (above.empty() ? "" : "/") + part;
+        }
+      return *section;
+    }
+
+    /// The declaration of the assigned parameter.
+    const Tree &find_parameter(const Tree &section, const ParameterFile::Assignment &assignment)
+    {
+      const auto entry = section.find(assignment.name);
+      if (entry != section.not_found() && is_parameter(entry->second))
+        return entry->second;
+      const auto known = declared_names(section, true);
+      throw InputError("unknown parameter in " + title(assignment.section))
+        .location(assignment.origin)
+        .given(assignment.name)
+        .allowed(join_choices(known))
+        .nearest(nearest_name(assignment.name, known));
+    }
+
+    /// The choices of a "[Selection a|b ]" pattern, none for other patterns.
+    std::vector<std::string> selection_of(const std::string &pattern)
+    {
+      const std::string start = "[Selection ";
+      if (pattern.compare(0, start.size(), start) != 0)
+        return {};
+      return dealii::Utilities::split_string_list(pattern.substr(start.size(), pattern.rfind(']') - start.size()),
+                                                  '|');
+    }
+
+    /// A pattern in the words of our messages.
+    std::string describe_pattern(const std::string &pattern)
+    {
+      const auto choices = selection_of(pattern);
+      return choices.empty() ? pattern : join_choices(choices);
+    }
+
+    /// Sets one value; false when it does not match the pattern.
+    bool set_value(dealii::ParameterHandler &prm, const ParameterFile::Assignment &assignment)
+    {
+      const auto sections = split_path(assignment.section);
+      for (const std::string &part : sections)
+        prm.enter_subsection(part);
+      bool matches = true;
+      try
+        {
+          prm.set(assignment.name, assignment.value);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          matches = false;
+        }
+      for (std::size_t k = 0; k < sections.size(); ++k)
+        prm.leave_subsection();
+      return matches;
+    }
+  } // namespace
+
+  ParameterFile ParameterFile::read(const std::string &filename)
+  {
+    std::ifstream file(filename);
+    if (!file)
+      throw InputError("cannot read the parameter file").location(filename).hint(
+        "check the path; it is taken from the current directory");
+    std::ostringstream text;
+    text << file.rdbuf();
+    return parse(text.str(), filename);
+  }
+
+  ParameterFile ParameterFile::parse(const std::string &text, const std::string &filename)
+  {
+    ParameterFile result;
+    result.filename = filename;
+    std::vector<std::string> section, opened_at;
+    std::istringstream       lines(text);
+    std::string              line, rest;
+    for (unsigned int number = 1; std::getline(lines, line); ++number)
+      {
+        const std::string where = filename + ":" + std::to_string(number);
+        line                    = clean(line);
+        // A backslash at the end continues the line.
+        for (std::string next; !line.empty() && line.back() == '\\' && std::getline(lines, next); ++number)
+          line = dealii::Utilities::trim(line.substr(0, line.size() - 1)) + " " + clean(next);
+        if (line.empty())
+          continue;
+        if (starts_with(line, "subsection", rest))
+          {
+            section.push_back(rest);
+            opened_at.push_back(where);
+            result.sections.push_back(join(section));
+          }
+        else if (line == "end")
+          {
+            if (section.empty())
+              throw InputError("\"end\" without a subsection").location(where);
+            section.pop_back();
+            opened_at.pop_back();
+          }
+        else if (starts_with(line, "set", rest))
+          {
+            const std::size_t equals = rest.find('=');
+            if (equals == std::string::npos)
+              throw InputError("no \"=\" in this line").location(where).given(line).allowed(
+                "set NAME = VALUE");
+            result.assignments.push_back({join(section),
+                                          dealii::Utilities::trim(rest.substr(0, equals)),
+                                          dealii::Utilities::trim(rest.substr(equals + 1)),
+                                          where});
+          }
+        else
+          throw InputError("line not understood").location(where).given(line).allowed(
+            "set NAME = VALUE | subsection NAME | end | # comment");
+      }
+    if (!section.empty())
+      throw InputError("subsection \"" + section.back() + "\" is never closed")
+        .location(opened_at.back())
+        .hint("add a line \"end\"");
+    return result;
+  }
+
+  void ParameterFile::override_with(const std::string &text)
+  {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw InputError("--set needs a parameter and a value").given(text).allowed(
+        "--set \"Section/Name=value\"");
+    std::vector<std::string> path = split_path(dealii::Utilities::trim(text.substr(0, equals)));
+    if (path.empty())
+      throw InputError("--set without a parameter name").given(text).allowed("--set \"Section/Name=value\"");
+    const std::string name = path.back();
+    path.pop_back();
+    const std::string section = join(path);
+    if (!section.empty() && std::find(sections.begin(), sections.end(), section) == sections.end())
+      sections.push_back(section);
+    assignments.push_back({section, name, dealii::Utilities::trim(text.substr(equals + 1)), "--set " + text});
+  }
+
+  std::vector<std::string> ParameterFile::subsections(const std::string &section) const
+  {
+    std::vector<std::string> result;
+    for (const std::string &candidate : sections)
+      if (candidate.size() > section.size() + 1 && candidate.compare(0, section.size() + 1, section + "/") == 0)
+        {
+          const std::string name = candidate.substr(section.size() + 1);
+          if (name.find('/') == std::string::npos &&
+              std::find(result.begin(), result.end(), name) == result.end())
+            result.push_back(name);
+        }
+    return result;
+  }
+
+  std::string ParameterFile::value_of(const std::string &path, const std::string &default_value) const
+  {
+    std::string value = default_value;
+    for (const Assignment &assignment : assignments)
+      if (assignment.path() == path)
+        value = assignment.value;
+    return value;
+  }
+
+  void ParameterFile::apply(dealii::ParameterHandler &prm) const
+  {
+    const Tree all = declarations(prm);
+    for (const Assignment &assignment : assignments)
+      {
+        const Tree &declared = find_parameter(find_section(all, assignment), assignment);
+        if (!set_value(prm, assignment))
+          {
+            const std::string allowed = declared.get<std::string>("pattern_description");
+            throw InputError("this value is not allowed")
+              .location(assignment.origin)
+              .parameter(assignment.path())
+              .given(assignment.value)
+              .allowed(describe_pattern(allowed))
+              .nearest(nearest_name(assignment.value, selection_of(allowed)));
+          }
+      }
+  }
+
+  InputError ParameterFile::locate(InputError error) const
+  {
+    if (error.parameter().empty())
+      return error;
+    const Assignment *last = nullptr;
+    for (const Assignment &assignment : assignments)
+      if (assignment.path() == error.parameter())
+        last = &assignment;
+    if (!error.has_location())
+      error.location(last ? last->origin : filename);
+    if (!error.has_given() && last)
+      error.given(last->value);
+    return error;
+  }
+} // namespace perideal

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/parameters/space_time_function.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  template <int dim>
+  SpaceTimeFunction<dim>::SpaceTimeFunction(const std::string &expression, const std::string &parameter)
+  {
+    if (expression.empty())
+      return;
+    const std::string variables = dim == 2 ? "x,y,t" : "x,y,z,t";
+    try
+      {
+        function = std::make_shared<dealii::FunctionParser<dim>>(1);
+        function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, true);
+        // muParser reports mistakes at the first evaluation only; a point with
+        // no special coordinates keeps clear of poles such as 1/x.
+        dealii::Point<dim> point;
+        for (int d = 0; d < dim; ++d)
+          point[d] = 0.1234 + 0.1 * d;
+        value(point, 0.567);
+      }
+    catch (const dealii::ExceptionBase &error)
+      {
+        throw InputError("this formula is wrong")
+          .parameter(parameter)
+          .given(expression)
+          .allowed("an expression in " + variables + " and pi, such as 1e-3*t*sin(pi*x)");
+      }
+  }
+
+  template <int dim>
+  double SpaceTimeFunction<dim>::value(const dealii::Point<dim> &point, const double time) const
+  {
+    function->set_time(time);
+    return function->value(point);
+  }
+
+  template class SpaceTimeFunction<2>;
+  template class SpaceTimeFunction<3>;
+} // namespace perideal

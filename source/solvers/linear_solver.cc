@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/operators/assembled_matrix.h>
+#include <perideal/operators/auxiliary_space.h>
+#include <perideal/operators/block_jacobi.h>
+#include <perideal/solvers/linear_solver.h>
+
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  void SolverParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Solver");
+    prm.add_parameter("Name", name, "What is solved: static: equilibrium under the final loads", Selection("static"));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Residual over the first residual at which a linear solve ends, 0 < tolerance < 1 [-]",
+                      Double());
+    prm.add_parameter("Maximum iterations",
+                      max_iterations,
+                      "Iterations after which a linear solve has failed",
+                      Integer(1));
+    prm.add_parameter("Linear solver",
+                      linear_solver,
+                      "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
+                      "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
+                      "small problems",
+                      Selection("automatic|cg|gmres|trilinos cg|trilinos gmres|direct"));
+    prm.add_parameter("Preconditioner",
+                      preconditioner,
+                      "auxiliary: block Jacobi plus multigrid on the finite-element matrix of the same mesh; block "
+                      "jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
+                      Selection("auxiliary|block jacobi|none"));
+    prm.add_parameter("Load steps",
+                      load_steps,
+                      "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
+                      Integer(1));
+    prm.leave_subsection();
+  }
+
+  void SolverParameters::check() const
+  {
+    if (!(tolerance > 0 && tolerance < 1))
+      throw InputError("the tolerance is out of range").parameter("Solver/Tolerance").allowed("0 < tolerance < 1");
+  }
+
+  bool SolverParameters::assembles() const
+  {
+    return linear_solver == "direct" || linear_solver.compare(0, 8, "trilinos") == 0;
+  }
+
+  bool SolverParameters::needs_auxiliary_space() const
+  {
+    return preconditioner == "auxiliary" && !assembles();
+  }
+
+  namespace
+  {
+    /// Watches the residual for history, progress and NaN.
+    class Monitor
+    {
+    public:
+      Monitor(LinearSolve &result, const std::function<void(const unsigned int, const double)> &progress)
+        : result(result)
+        , progress(progress)
+      {}
+
+      template <typename Vector>
+      dealii::SolverControl::State operator()(const unsigned int iteration, const double residual, const Vector &)
+      {
+        if (iteration == 0)
+          first = residual > 0 ? residual : 1.;
+        result.residuals.push_back(residual / first);
+        if (progress)
+          progress(iteration, residual / first);
+        return std::isfinite(residual) ? dealii::SolverControl::success : dealii::SolverControl::failure;
+      }
+
+    private:
+      LinearSolve                                                     &result;
+      const std::function<void(const unsigned int, const double)> &progress;
+      double                                                            first = 1;
+    };
+
+    /// deal.II's CG or GMRES on the matrix-free operator.
+    template <int dim, typename Preconditioner>
+    class KrylovSolver : public LinearSolver<dim>
+    {
+    public:
+      KrylovSolver(const SolverParameters           &parameters,
+                   const ConstrainedOperator<dim>   &system,
+                   const NullSpace<dim>             &null_space,
+                   std::unique_ptr<Preconditioner>   preconditioner,
+                   const bool                        symmetric)
+        : parameters(parameters)
+        , system(system)
+        , null_space(null_space)
+        , preconditioner(std::move(preconditioner))
+        , symmetric(symmetric)
+      {}
+
+      LinearSolve solve(NodalVector                                     &solution,
+                        const NodalVector                               &source,
+                        const typename LinearSolver<dim>::Progress &progress) override
+      {
+        LinearSolve                                       result;
+        Monitor                                           monitor(result, progress);
+        dealii::ReductionControl                          control(parameters.max_iterations, 1e-300, parameters.tolerance);
+        const ProjectedPreconditioner<dim, Preconditioner> projected(*preconditioner, null_space);
+        try
+          {
+            if (symmetric)
+              run_cg(control, monitor, solution, source, projected);
+            else
+              run_gmres(control, monitor, solution, source, projected);
+            result.converged = true;
+          }
+        catch (const dealii::SolverControl::NoConvergence &)
+          {}
+        result.iterations = control.last_step();
+        return result;
+      }
+
+      std::string name() const override
+      {
+        return (symmetric ? "cg, " : "gmres, ") + parameters.preconditioner + " preconditioner";
+      }
+
+    private:
+      template <typename Projected>
+      void run_cg(dealii::SolverControl &control,
+                  Monitor               &monitor,
+                  NodalVector           &solution,
+                  const NodalVector     &source,
+                  const Projected       &projected)
+      {
+        dealii::SolverCG<NodalVector> cg(control);
+        cg.connect(monitor);
+        cg.solve(system, solution, source, projected);
+      }
+
+      template <typename Projected>
+      void run_gmres(dealii::SolverControl &control,
+                     Monitor               &monitor,
+                     NodalVector           &solution,
+                     const NodalVector     &source,
+                     const Projected       &projected)
+      {
+        // Right preconditioning: the residual that is watched is the true one.
+        dealii::SolverGMRES<NodalVector> gmres(
+          control, typename dealii::SolverGMRES<NodalVector>::AdditionalData(102, true));
+        gmres.connect(monitor);
+        gmres.solve(system, solution, source, projected);
+      }
+
+      const SolverParameters          parameters;
+      const ConstrainedOperator<dim> &system;
+      const NullSpace<dim>           &null_space;
+      std::unique_ptr<Preconditioner> preconditioner;
+      bool                            symmetric;
+    };
+
+    /// Trilinos' own solvers on the assembled matrix.
+    template <int dim>
+    class AssembledSolver : public LinearSolver<dim>
+    {
+    public:
+      AssembledSolver(const SolverParameters &parameters, const ConstrainedOperator<dim> &system)
+        : parameters(parameters)
+      {
+        assemble_matrix(system, matrix);
+        if (parameters.linear_solver != "direct" && parameters.preconditioner != "none")
+          preconditioner.initialize(matrix,
+                                    dealii::TrilinosWrappers::PreconditionBlockJacobi::AdditionalData(dim));
+      }
+
+      LinearSolve solve(NodalVector       &solution,
+                        const NodalVector &source,
+                        const typename LinearSolver<dim>::Progress &) override
+      {
+        LinearSolve           result;
+        const double          first = residual_norm(solution, source);
+        dealii::SolverControl control(parameters.max_iterations, parameters.tolerance * first);
+        result.residuals.push_back(1.);
+        try
+          {
+            if (parameters.linear_solver == "direct")
+              {
+                dealii::TrilinosWrappers::SolverDirect direct(control);
+                direct.solve(matrix, solution, source);
+              }
+            else
+              iterate(control, solution, source);
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            // Judged by the residual below.
+          }
+        const double last = residual_norm(solution, source);
+        result.residuals.push_back(last / first);
+        result.iterations = parameters.linear_solver == "direct" ? 1 : control.last_step();
+        // Trilinos judges by its recursive residual, which may lag a little.
+        result.converged = last <= 10. * parameters.tolerance * first;
+        return result;
+      }
+
+      std::string name() const override { return parameters.linear_solver + ", assembled matrix"; }
+
+    private:
+      double residual_norm(const NodalVector &solution, const NodalVector &source) const
+      {
+        NodalVector residual(source);
+        matrix.vmult(residual, solution);
+        residual -= source;
+        return residual.l2_norm();
+      }
+
+      void iterate(dealii::SolverControl &control, NodalVector &solution, const NodalVector &source)
+      {
+        using namespace dealii::TrilinosWrappers;
+        const auto kind = parameters.linear_solver == "trilinos cg" ? SolverBase::cg : SolverBase::gmres;
+        SolverBase solver(kind, control);
+        if (parameters.preconditioner == "none")
+          solver.solve(matrix, solution, source, PreconditionIdentity());
+        else
+          solver.solve(matrix, solution, source, preconditioner);
+      }
+
+      const SolverParameters                            parameters;
+      dealii::TrilinosWrappers::SparseMatrix            matrix;
+      dealii::TrilinosWrappers::PreconditionBlockJacobi preconditioner;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
+                                                          const ConstrainedOperator<dim> &system,
+                                                          const NullSpace<dim>           &null_space,
+                                                          const Nodes<dim>               &nodes,
+                                                          const ElasticFem<dim>          *fem)
+  {
+    if (parameters.assembles())
+      {
+        if (!null_space.empty())
+          throw InputError("the assembled solvers cannot leave rigid-body motions free")
+            .parameter("Solver/Linear solver")
+            .allowed("automatic | cg | gmres for this scene");
+        if (parameters.linear_solver == "trilinos cg" && !system.is_symmetric())
+          throw InputError("the operator of this scene is not symmetric")
+            .parameter("Solver/Linear solver")
+            .allowed("automatic | gmres | trilinos gmres | direct");
+        return std::make_unique<AssembledSolver<dim>>(parameters, system);
+      }
+    if (parameters.linear_solver == "cg" && !system.is_symmetric())
+      throw InputError("the operator of this scene is not symmetric")
+        .parameter("Solver/Linear solver")
+        .allowed("automatic | gmres | trilinos gmres | direct");
+
+    const bool symmetric = parameters.linear_solver == "automatic" ? system.is_symmetric() :
+                                                                     parameters.linear_solver == "cg";
+    const auto krylov    = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
+      using Preconditioner = typename decltype(preconditioner)::element_type;
+      return std::make_unique<KrylovSolver<dim, Preconditioner>>(
+        parameters, system, null_space, std::move(preconditioner), symmetric);
+    };
+    if (parameters.preconditioner == "none")
+      return krylov(std::make_unique<dealii::PreconditionIdentity>());
+    if (parameters.preconditioner == "block jacobi")
+      return krylov(std::make_unique<BlockJacobi<dim>>(system));
+    Assert(fem != nullptr, dealii::ExcInternalError());
+    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem));
+  }
+
+  template class LinearSolver<2>;
+  template class LinearSolver<3>;
+  template std::unique_ptr<LinearSolver<2>> create_linear_solver(const SolverParameters &,
+                                                                 const ConstrainedOperator<2> &,
+                                                                 const NullSpace<2> &,
+                                                                 const Nodes<2> &,
+                                                                 const ElasticFem<2> *);
+  template std::unique_ptr<LinearSolver<3>> create_linear_solver(const SolverParameters &,
+                                                                 const ConstrainedOperator<3> &,
+                                                                 const NullSpace<3> &,
+                                                                 const Nodes<3> &,
+                                                                 const ElasticFem<3> *);
+} // namespace perideal

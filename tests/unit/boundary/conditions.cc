@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/boundary_faces.h>
+#include <perideal/boundary/held_nodes.h>
+#include <perideal/boundary/mirror_layer.h>
+#include <perideal/boundary/nodal_forces.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+using namespace perideal;
+using test::expect_input_error;
+
+namespace
+{
+  /// Boundaries of the test boxes: 0 left, 1 right, 2 bottom, 3 top.
+  struct Scene
+  {
+    explicit Scene(const std::vector<BoundaryConditionText> &conditions, const double distortion = 0.2)
+      : mesh(test::make_box<2>({8, 6}, {1., 0.75}, distortion))
+      , nodes(*mesh, NodeParameters{3.01})
+      , faces(find_boundary_faces(*mesh, nodes))
+    {
+      LoadParameters parameters;
+      parameters.conditions = conditions;
+      loads                 = Loads<2>(parameters);
+      boundaries            = resolve_boundaries(*mesh, loads);
+    }
+
+    NodalVector field() const
+    {
+      dealii::IndexSet owned(2 * nodes.n_global);
+      owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
+      return NodalVector(owned, MPI_COMM_WORLD);
+    }
+
+    std::unique_ptr<Mesh<2>>                             mesh;
+    Nodes<2>                                             nodes;
+    std::vector<BoundaryFace<2>>                         faces;
+    Loads<2>                                             loads;
+    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
+  };
+
+  BoundaryConditionText condition(const std::string &name, const std::string &boundary)
+  {
+    BoundaryConditionText text;
+    text.name     = name;
+    text.boundary = boundary;
+    return text;
+  }
+
+  BoundaryConditionText held(const std::string &boundary, const std::string &u_x, const std::string &u_y)
+  {
+    BoundaryConditionText text = condition("hold " + boundary, boundary);
+    text.displacement          = {{u_x, u_y, ""}};
+    return text;
+  }
+
+  double sum(const double value) { return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD); }
+} // namespace
+
+TEST(BoundaryFaces, CloseTheBody)
+{
+  const Scene          scene({held("0", "0", "0")});
+  double               length = 0;
+  dealii::Tensor<1, 2> closure;
+  for (const auto &face : scene.faces)
+    {
+      length += face.area;
+      closure += face.area * face.normal;
+    }
+  EXPECT_NEAR(sum(length), 3.5, 1e-13);
+  EXPECT_LE(dealii::Utilities::MPI::sum(closure, MPI_COMM_WORLD).norm(), 1e-13);
+}
+
+TEST(BoundaryFaces, UnknownAndDoubleConditionsAreErrors)
+{
+  expect_input_error([] { Scene({held("nowhere", "0", "")}); }, {"hold nowhere/Boundary", "nowhere"});
+  expect_input_error([] { Scene({held("17", "0", "")}); }, {"17"});
+  expect_input_error([] { Scene({held("0", "0", ""), held("0", "1", "")}); }, {"twice", "along x"});
+  auto pulled     = condition("pull", "0");
+  pulled.traction = {{"1", "", ""}};
+  expect_input_error([&] { Scene({held("0", "0", ""), pulled}); }, {"both prescribed"});
+}
+
+TEST(HeldNodes, TakeTheBoundarysValue)
+{
+  const Scene        scene({held("0", "3*y*t", ""), held("3", "", "5")});
+  const HeldNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  NodalVector        u = scene.field();
+  u                    = 7.;
+  nodes.set_boundary_values(scene.loads, 2., u);
+  double n_left = 0, n_top = 0;
+  for (const auto &face : scene.faces)
+    {
+      if (face.boundary == 0)
+        {
+          EXPECT_NEAR(u.local_element(2 * face.node), 6 * face.centre[1], 1e-14);
+          ++n_left;
+        }
+      if (face.boundary == 3)
+        {
+          EXPECT_EQ(u.local_element(2 * face.node + 1), 5.);
+          ++n_top;
+        }
+    }
+  EXPECT_EQ(sum(n_left), 6.);
+  EXPECT_EQ(sum(n_top), 8.);
+  double n_held = 0;
+  for (const auto flag : nodes.mask())
+    n_held += flag;
+  EXPECT_EQ(sum(n_held), 14.);
+}
+
+TEST(HeldNodes, ReactionsAreSummedByCondition)
+{
+  const Scene        scene({held("0", "0", "0"), held("1", "1", "")});
+  const HeldNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  NodalVector        force = scene.field();
+  force                    = 2.;
+  const auto reactions     = nodes.sum_by_condition(force, MPI_COMM_WORLD);
+  EXPECT_NEAR(reactions[0][0], 12., 1e-13);
+  EXPECT_NEAR(reactions[0][1], 12., 1e-13);
+  EXPECT_NEAR(reactions[1][0], 12., 1e-13);
+  EXPECT_NEAR(reactions[1][1], 0., 1e-13);
+}
+
+TEST(NodalForces, ResultantsAreExact)
+{
+  auto pulled     = condition("pull", "1");
+  pulled.traction = {{"2", "3*y", ""}};
+  auto pressed    = condition("press", "3");
+  pressed.pressure = "4*t";
+  const Scene scene({pulled, pressed});
+  NodalVector force = scene.field();
+  compute_nodal_forces(scene.nodes, scene.faces, scene.loads, scene.boundaries, 0.5, force);
+  double x = 0, y = 0;
+  for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
+    {
+      x += force.local_element(2 * i);
+      y += force.local_element(2 * i + 1);
+    }
+  // 2 over a height of 0.75; 3 y over it (midpoints are exact for linear tractions); 2 over a width of 1.
+  EXPECT_NEAR(sum(x), 1.5, 1e-13);
+  EXPECT_NEAR(sum(y), 1.5 * 0.75 * 0.75 - 2., 1e-13);
+}
+
+TEST(MirrorLayer, ImagesStandBehindThePlaneAndMoveAsTold)
+{
+  const Scene    scene({held("1", "1e-3*t", "")}, 0.);
+  MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  EXPECT_TRUE(mirror.keeps_symmetry());
+  EXPECT_GT(sum(mirror.n_fictitious()), 0.);
+  for (LocalIndex i = 0; i < mirror.nodes().size(); ++i)
+    EXPECT_EQ(mirror.nodes().position[i][0] > 1., i >= mirror.n_real());
+  // A field that meets the condition at the plane is continued smoothly: u_x = 1e-3 t x, u_y = x-independent.
+  NodalVector u = scene.field();
+  for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
+    {
+      u.local_element(2 * i)     = 2e-3 * scene.nodes.position[i][0];
+      u.local_element(2 * i + 1) = scene.nodes.position[i][1];
+    }
+  mirror.set_time(scene.loads, 2.);
+  dealii::IndexSet owned(2 * mirror.nodes().n_global);
+  owned.add_range(2 * mirror.nodes().first_global,
+                  2 * (mirror.nodes().first_global + mirror.nodes().size()));
+  NodalVector extended(owned, MPI_COMM_WORLD);
+  mirror.extend(u, true, extended);
+  for (LocalIndex i = 0; i < mirror.nodes().size(); ++i)
+    {
+      EXPECT_NEAR(extended.local_element(2 * i), 2e-3 * mirror.nodes().position[i][0], 1e-15);
+      EXPECT_NEAR(extended.local_element(2 * i + 1), mirror.nodes().position[i][1], 1e-15);
+    }
+}
+
+TEST(MirrorLayer, CornersAreFilled)
+{
+  const Scene          scene({held("1", "0", ""), held("3", "", "0")}, 0.);
+  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  double               n_corner = 0;
+  for (LocalIndex i = mirror.n_real(); i < mirror.nodes().size(); ++i)
+    n_corner += mirror.nodes().position[i][0] > 1. && mirror.nodes().position[i][1] > 0.75;
+  EXPECT_GE(sum(n_corner), 36.); // two horizons are six cells
+}
+
+TEST(MirrorLayer, ClampedPlanesBreakTheSymmetry)
+{
+  const Scene          scene({held("1", "0", "0")});
+  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  EXPECT_FALSE(mirror.keeps_symmetry());
+}
+
+TEST(MirrorLayer, BentBoundariesAreErrors)
+{
+  Scene scene({held("1", "0", "")}, 0.);
+  for (auto &face : scene.faces)
+    if (face.boundary == 1)
+      for (auto &vertex : face.vertices)
+        vertex[0] += 0.1 * vertex[1] * vertex[1];
+  expect_input_error(
+    [&] { MirrorLayer<2>(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries); },
+    {"Displacement treatment", "plane"});
+}

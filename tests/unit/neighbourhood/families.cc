@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/neighbourhood/bond_list.h>
+#include <perideal/neighbourhood/families.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+#include <algorithm>
+#include <set>
+
+using namespace perideal;
+
+namespace
+{
+  /// Positions and horizons of all ranks, by global number.
+  template <int dim>
+  struct AllNodes
+  {
+    explicit AllNodes(const NodeCloud<dim> &nodes)
+    {
+      for (const auto &part : dealii::Utilities::MPI::all_gather(nodes.communicator, nodes.position))
+        position.insert(position.end(), part.begin(), part.end());
+      for (const auto &part : dealii::Utilities::MPI::all_gather(nodes.communicator, nodes.horizon))
+        horizon.insert(horizon.end(), part.begin(), part.end());
+    }
+
+    bool share_bond(const std::size_t i, const std::size_t j) const
+    {
+      const double reach = std::max(horizon[i], horizon[j]);
+      return i != j && (position[j] - position[i]).norm_square() <= reach * reach;
+    }
+
+    std::vector<dealii::Point<dim>> position;
+    std::vector<double>             horizon;
+  };
+
+  /// Every family is what trying all pairs gives.
+  template <int dim>
+  void expect_all_pairs(const NodeCloud<dim> &nodes)
+  {
+    const Families<dim> families(nodes);
+    const AllNodes<dim> all(nodes);
+    GlobalIndex         n_directed = 0;
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      {
+        std::set<GlobalIndex> expected, found;
+        for (GlobalIndex j = 0; j < all.position.size(); ++j)
+          if (all.share_bond(families.global_number(i), j))
+            expected.insert(j);
+        EXPECT_TRUE(std::is_sorted(families.begin(i), families.end(i)));
+        for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+          {
+            found.insert(families.global_number(*j));
+            EXPECT_EQ(families.position[*j], all.position[families.global_number(*j)]);
+          }
+        EXPECT_EQ(found, expected);
+        n_directed += expected.size();
+      }
+    EXPECT_EQ(2 * families.n_bonds(), dealii::Utilities::MPI::sum(n_directed, nodes.communicator));
+  }
+
+  /// A box whose cells grow along x, so that horizons differ by @p ratio.
+  template <int dim>
+  NodeCloud<dim> graded_nodes(const std::vector<unsigned int> &cells, const double ratio)
+  {
+    dealii::Point<dim> size;
+    for (int d = 0; d < dim; ++d)
+      size[d] = 1;
+    const auto mesh = test::make_box<dim>(cells, size, 0.2);
+    dealii::GridTools::transform(
+      [&](dealii::Point<dim> vertex) {
+        vertex[0] = (std::pow(ratio, vertex[0]) - 1) / (ratio - 1);
+        return vertex;
+      },
+      mesh->triangulation);
+    return Nodes<dim>(*mesh, NodeParameters{2.2});
+  }
+} // namespace
+
+TEST(Families, MatchAllPairs2D)
+{
+  for (const auto &mesh : test::make_boxes<2>())
+    expect_all_pairs<2>(Nodes<2>(*mesh, NodeParameters{3.01}));
+  expect_all_pairs<2>(graded_nodes<2>({30, 6}, 40.));
+}
+
+TEST(Families, MatchAllPairs3D)
+{
+  for (const auto &mesh : test::make_boxes<3>())
+    expect_all_pairs<3>(Nodes<3>(*mesh, NodeParameters{3.01}));
+  expect_all_pairs<3>(graded_nodes<3>({14, 4, 4}, 10.));
+}
+
+TEST(Families, RegularLatticeHasTheKnownSize)
+{
+  // 28 lattice points within 3.01 spacings in the plane, 122 in space.
+  const auto       mesh = test::make_box<2>({12, 12}, {1., 1.}, 0.);
+  const test::Body body(*mesh);
+  EXPECT_EQ(body.families->statistics().max, 28u);
+  const auto         block = test::make_box<3>({8, 8, 8}, {1., 1., 1.}, 0.);
+  const test::Body<3> solid(*block);
+  EXPECT_EQ(solid.families->statistics().max, 122u);
+}
+
+TEST(BondList, HoldsEveryBondOnceAndItsCursorFindsIt)
+{
+  const auto          mesh = test::make_box<2>({9, 8}, {1., 1.}, 0.3);
+  const test::Body<2> body(*mesh);
+  const auto         &families = *body.families;
+  const BondList      bonds(families);
+
+  std::vector<BondCursor::End> ends;
+  BondCursor                   cursor(bonds);
+  std::vector<unsigned int>    visits(bonds.n_slots(), 0);
+  for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    {
+      EXPECT_EQ((bonds.row[i + 1] - bonds.row[i]) % BondList::n_lanes, 0u);
+      cursor.find(i, families.begin(i), families.end(i), ends);
+      ASSERT_EQ(ends.size(), families.size(i));
+      for (LocalIndex k = 0; k < ends.size(); ++k)
+        {
+          const LocalIndex j   = families.begin(i)[k];
+          const LocalIndex row = ends[k].is_near ? i : j;
+          EXPECT_GE(ends[k].slot, bonds.row[row]);
+          EXPECT_LT(ends[k].slot, bonds.row[row + 1]);
+          EXPECT_EQ(bonds.neighbour[ends[k].slot], ends[k].is_near ? j : i);
+          ++visits[ends[k].slot];
+        }
+    }
+  for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+      {
+        const LocalIndex   j        = bonds.neighbour[slot];
+        const unsigned int expected = j == i ? 0 : (j < families.n_owned() ? 2 : 1);
+        EXPECT_EQ(visits[slot], expected);
+      }
+}
+
+TEST(BondList, CutBondsLearnTheirFarEnds)
+{
+  const auto          mesh = test::make_box<3>({6, 5, 5}, {1., 1., 1.}, 0.2);
+  const test::Body<3> body(*mesh);
+  const auto         &families = *body.families;
+  const BondList      bonds(families);
+  const auto          value = [&](const LocalIndex from, const LocalIndex to) {
+    return 1e4 * families.global_number(from) + families.global_number(to);
+  };
+  std::vector<double> near(bonds.n_slots(), 0.), far(bonds.n_slots(), -1.);
+  for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+      near[slot] = value(i, bonds.neighbour[slot]);
+  exchange_cut_bonds(families, bonds, {near.data()}, {far.data()});
+  for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+      if (bonds.neighbour[slot] >= families.n_owned())
+        EXPECT_EQ(far[slot], value(bonds.neighbour[slot], i));
+      else
+        EXPECT_EQ(far[slot], -1.);
+}
