@@ -7,9 +7,8 @@ namespace perideal
 {
   CommandLine CommandLine::parse(const int argc, const char *const *argv)
   {
-    const std::vector<std::string> options = {
-      "--set", "--check", "--parameters", "--help", "--version"};
-    CommandLine result;
+    const std::vector<std::string> options = {"--set", "--check", "--parameters", "--help", "--version"};
+    CommandLine                    result;
     for (int k = 0; k < argc; ++k)
       result.command += (k > 0 ? " " : "") + std::string(argv[k]);
     for (int k = 1; k < argc; ++k)
@@ -41,7 +40,9 @@ namespace perideal
         else if (result.scene_file.empty())
           result.scene_file = word;
         else
-          throw InputError("more than one parameter file").given(result.scene_file + " and " + word).allowed("one");
+          throw InputError("more than one parameter file")
+            .given(result.scene_file + " and " + word)
+            .allowed("one");
       }
     if (result.scene_file.empty() && (result.action == Action::run || result.action == Action::check))
       throw InputError("no parameter file was given").allowed("perideal FILE.prm; see perideal --help");
@@ -54,10 +55,12 @@ namespace perideal
            "\n"
            "  perideal FILE.prm [--set \"Section/Name=value\"]...   run the scene; later values win\n"
            "  perideal --check FILE.prm [--set ...]               read, mesh, count and warn; solve nothing\n"
-           "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, meaning\n"
+           "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, "
+           "meaning\n"
            "  perideal --help | --version\n"
            "  mpirun -np N perideal FILE.prm                      the same on N cores\n"
            "\n"
-           "Exit status: 0 done; 1 the input is wrong; 2 the computation failed, what was computed is on disk.\n";
+           "Exit status: 0 done; 1 the input is wrong; 2 the computation failed, what was computed is on "
+           "disk.\n";
   }
 } // namespace perideal

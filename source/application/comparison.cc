@@ -8,11 +8,8 @@ namespace perideal
   using Json = nlohmann::ordered_json;
 
   template <int dim>
-  NodalField<dim> solve_fem(const SceneState<dim> &scene,
-                            const double           time,
-                            const double           tolerance,
-                            Timings               &timings,
-                            Json                  &report)
+  NodalField<dim> solve_fem(
+    const SceneState<dim> &scene, const double time, const double tolerance, Timings &timings, Json &report)
   {
     NodalField<dim> result(scene.nodes->size());
     {
@@ -61,15 +58,15 @@ namespace perideal
   }
 
   template <int dim>
-  NodalField<dim> evaluate_exact(const SceneState<dim>      &scene,
-                                 const ComparisonParameters &parameters,
-                                 const double                time)
+  NodalField<dim>
+  evaluate_exact(const SceneState<dim> &scene, const ComparisonParameters &parameters, const double time)
   {
     NodalField<dim> result(scene.nodes->size());
     const char     *axes[] = {"x", "y", "z"};
     for (int d = 0; d < dim; ++d)
       {
-        const SpaceTimeFunction<dim> function(parameters.exact[d], std::string("Comparison/Exact u_") + axes[d]);
+        const SpaceTimeFunction<dim> function(parameters.exact[d],
+                                              std::string("Comparison/Exact u_") + axes[d]);
         if (!function.is_present())
           throw InputError("the exact solution lacks a component")
             .parameter(std::string("Comparison/Exact u_") + axes[d])
@@ -136,14 +133,14 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                        \
-  template NodalField<dim> solve_fem(                                                                    \
-    const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);           \
-  template NodalField<dim> solve_reference(                                                              \
-    const SceneState<dim> &, const unsigned int, const double, Timings &);                               \
-  template NodalField<dim> evaluate_exact(                                                               \
-    const SceneState<dim> &, const ComparisonParameters &, const double);                                \
-  template nlohmann::ordered_json compare(                                                               \
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template NodalField<dim> solve_fem(                                                                        \
+    const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);               \
+  template NodalField<dim> solve_reference(                                                                  \
+    const SceneState<dim> &, const unsigned int, const double, Timings &);                                   \
+  template NodalField<dim> evaluate_exact(                                                                   \
+    const SceneState<dim> &, const ComparisonParameters &, const double);                                    \
+  template nlohmann::ordered_json compare(                                                                   \
     const SceneState<dim> &, const std::vector<std::string> &, const std::string &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -40,7 +40,8 @@ namespace
         context.command         = command_line.command;
         context.scene_directory = std::filesystem::path(command_line.scene_file).parent_path().string();
         std::ostringstream json;
-        prm.print_parameters(json, dealii::ParameterHandler::ShortJSON | dealii::ParameterHandler::KeepDeclarationOrder);
+        prm.print_parameters(
+          json, dealii::ParameterHandler::ShortJSON | dealii::ParameterHandler::KeepDeclarationOrder);
         context.parameters = nlohmann::ordered_json::parse(json.str());
 
         const bool only_check = command_line.action == CommandLine::Action::check;
@@ -69,17 +70,17 @@ namespace
     std::ostringstream text;
     switch (command_line.action)
       {
-        case CommandLine::Action::help:
-          text << CommandLine::help();
-          break;
-        case CommandLine::Action::version:
-          text << version_text();
-          break;
-        case CommandLine::Action::print_parameters:
-          print_parameters(text, command_line.format);
-          break;
-        default:
-          process(command_line);
+      case CommandLine::Action::help:
+        text << CommandLine::help();
+        break;
+      case CommandLine::Action::version:
+        text << version_text();
+        break;
+      case CommandLine::Action::print_parameters:
+        print_parameters(text, command_line.format);
+        break;
+      default:
+        process(command_line);
       }
     if (speaks)
       std::cout << text.str() << std::flush;

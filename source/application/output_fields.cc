@@ -60,19 +60,23 @@ namespace perideal
          {"dilatation",
           [](Scene s, Output o) {
             const auto &dilatation = s.bonds->dilatation();
-            add_family_scalar(s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
+            add_family_scalar(
+              s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
           }},
          {"volume", [](Scene s, Output o) { o.add_scalar("volume", s.nodes->volume); }},
          {"horizon", [](Scene s, Output o) { o.add_scalar("horizon", s.nodes->horizon); }},
          {"material",
           [](Scene s, Output o) {
-            add_family_scalar(s, "material", [&](LocalIndex i) { return double(s.nodes->material[i]); }, o);
+            add_family_scalar(
+              s, "material", [&](LocalIndex i) { return double(s.nodes->material[i]); }, o);
           }},
          {"neighbours",
           [](Scene s, Output o) {
-            add_family_scalar(s, "neighbours", [&](LocalIndex i) { return double(s.families->size(i)); }, o);
+            add_family_scalar(
+              s, "neighbours", [&](LocalIndex i) { return double(s.families->size(i)); }, o);
           }},
-         // 1: spherical or compromised weights, 2: a moment condition missed, 4: negative deviatoric weights met.
+         // 1: spherical or compromised weights, 2: a moment condition missed, 4: negative deviatoric weights
+         // met.
          {"family status", [](Scene s, Output o) {
             const auto status = [&](LocalIndex i) {
               const FamilyReport &report = s.bonds->reports[i];

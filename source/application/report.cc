@@ -57,7 +57,7 @@ namespace perideal
     result["bonds"]      = scene.families->n_bonds();
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
     result["model"]      = parameters.model.model;
-    result["variant"]    = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
+    result["variant"] = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
     if (scene.bonds)
       result["families"] = {{"fallback", scene.bonds->counts.fallback},
                             {"singular", scene.bonds->counts.singular},
@@ -68,12 +68,12 @@ namespace perideal
   template <int dim>
   Json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene)
   {
-    Json        result;
-    const auto  bonds = scene.families->n_bonds();
-    const auto  nodes = scene.nodes->n_global;
-    const bool  alone = dealii::Utilities::MPI::n_mpi_processes(scene.nodes->communicator) == 1;
-    result["bond state (nothing can break)"]        = bonds;
-    result["mass and velocity (statics)"]           = 2 * dim * nodes;
+    Json       result;
+    const auto bonds = scene.families->n_bonds();
+    const auto nodes = scene.nodes->n_global;
+    const bool alone = dealii::Utilities::MPI::n_mpi_processes(scene.nodes->communicator) == 1;
+    result["bond state (nothing can break)"]         = bonds;
+    result["mass and velocity (statics)"]            = 2 * dim * nodes;
     result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
     if (alone)
       result["halo exchange (one rank)"] = 1;
@@ -95,14 +95,14 @@ namespace perideal
         << "bonds       " << grouped(scene.families->n_bonds()) << ", neighbours a node " << statistics.min
         << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)\n"
         << "model       " << parameters.model.model
-        << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "") << ", "
-        << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
+        << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "")
+        << ", " << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
     if (scene.bonds)
       {
         const FamilyCounts &counts = scene.bonds->counts;
         out << "families    " << grouped(counts.fallback) << " with fallback weights, "
-            << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
-            << " had negative deviatoric weights\n";
+            << grouped(counts.singular) << " miss a moment condition (singular), "
+            << grouped(counts.indefinite) << " had negative deviatoric weights\n";
       }
     out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
     if (scene.mirror->n_fictitious() > 0)
@@ -127,8 +127,9 @@ namespace perideal
     const auto               statistics = scene.families->statistics();
     const unsigned int       wanted     = dim == 2 ? 5 : 15;
     if (statistics.min < wanted)
-      result.push_back("the smallest family has " + std::to_string(statistics.min) + " members, fewer than the " +
-                       std::to_string(wanted) + " moment conditions: enlarge Nodes/Horizon factor");
+      result.push_back("the smallest family has " + std::to_string(statistics.min) +
+                       " members, fewer than the " + std::to_string(wanted) +
+                       " moment conditions: enlarge Nodes/Horizon factor");
     const double nu     = parameters.material.body.poisson_ratio;
     const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
     if (!stress && nu > 0.45)
@@ -161,7 +162,8 @@ namespace perideal
 
   namespace
   {
-    void add_error_rows(const Json &errors, const std::string &title, std::vector<std::vector<std::string>> &rows)
+    void
+    add_error_rows(const Json &errors, const std::string &title, std::vector<std::vector<std::string>> &rows)
     {
       const auto number = [](const Json &value) {
         return value.is_number() ? short_number(value.get<double>()) : std::string("-");
@@ -170,7 +172,8 @@ namespace perideal
       if (errors.contains("profiles"))
         for (const auto &profile : errors["profiles"].items())
           for (const auto &component : profile.value().items())
-            rows.push_back({"  " + component.key() + " along " + profile.key(), "", number(component.value())});
+            rows.push_back(
+              {"  " + component.key() + " along " + profile.key(), "", number(component.value())});
       for (const auto &item : errors.items())
         if (item.value().is_object() && item.key() != "profiles")
           add_error_rows(item.value(), title + ", " + item.key(), rows);
@@ -195,7 +198,8 @@ namespace perideal
     , tolerance(tolerance)
     , start(seconds_now())
     , last_print(start)
-  {}
+  {
+  }
 
   ProgressLine::~ProgressLine()
   {
@@ -220,10 +224,10 @@ namespace perideal
     out << line.str() << "      " << std::flush;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                             \
-  template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &); \
-  template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);         \
-  template std::string banner(const SceneParameters &, const SceneState<dim> &);              \
+#define PERIDEAL_INSTANTIATE(dim)                                                                              \
+  template Json                     describe_discretisation(const SceneParameters &, const SceneState<dim> &); \
+  template Json                     list_skipped(const SceneParameters &, const SceneState<dim> &);            \
+  template std::string              banner(const SceneParameters &, const SceneState<dim> &);                  \
   template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -54,9 +54,8 @@ namespace perideal
     loads.declare(prm, file);
     comparison.declare(prm);
     prm.enter_subsection("Output");
-    prm.add_parameter("Fields",
-                      fields,
-                      "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()));
+    prm.add_parameter(
+      "Fields", fields, "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()));
     prm.leave_subsection();
   }
 
@@ -87,9 +86,8 @@ namespace perideal
   namespace
   {
     /// One table row a parameter, one heading a section.
-    void print_markdown(std::ostream                      &out,
-                        const boost::property_tree::ptree &section,
-                        const std::string                 &path)
+    void
+    print_markdown(std::ostream &out, const boost::property_tree::ptree &section, const std::string &path)
     {
       const auto is_parameter = [](const auto &entry) {
         return entry.second.find("pattern_description") != entry.second.not_found();
@@ -103,8 +101,8 @@ namespace perideal
           << "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
       for (const auto &entry : section)
         if (is_parameter(entry))
-          out << "| `" << entry.first << "` | " << cell(entry.second.get<std::string>("default_value")) << " | "
-              << cell(entry.second.get<std::string>("pattern_description")) << " | "
+          out << "| `" << entry.first << "` | " << cell(entry.second.get<std::string>("default_value"))
+              << " | " << cell(entry.second.get<std::string>("pattern_description")) << " | "
               << cell(entry.second.get<std::string>("documentation")) << " |\n";
       out << '\n';
       for (const auto &entry : section)
@@ -116,21 +114,25 @@ namespace perideal
   void print_parameters(std::ostream &out, const std::string &format)
   {
     // Sections that the user names appear once, under a name that says so.
-    const ParameterFile file = ParameterFile::parse("subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
-                                                    "subsection Boundary conditions\n"
-                                                    " subsection ANY NAME\n end\nend\n",
-                                                    "");
+    const ParameterFile file =
+      ParameterFile::parse("subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
+                           "subsection Boundary conditions\n"
+                           " subsection ANY NAME\n end\nend\n",
+                           "");
     SceneParameters          scene;
     dealii::ParameterHandler prm;
     scene.declare(prm, file);
     if (format == "text")
-      prm.print_parameters(out, dealii::ParameterHandler::Description | dealii::ParameterHandler::KeepDeclarationOrder);
+      prm.print_parameters(
+        out, dealii::ParameterHandler::Description | dealii::ParameterHandler::KeepDeclarationOrder);
     else if (format == "prm")
-      prm.print_parameters(out, dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder);
+      prm.print_parameters(out,
+                           dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder);
     else if (format == "markdown")
       {
         std::stringstream json;
-        prm.print_parameters(json, dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+        prm.print_parameters(json,
+                             dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
         boost::property_tree::ptree tree;
         boost::property_tree::read_json(json, tree);
         print_markdown(out, tree, "");

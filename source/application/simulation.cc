@@ -15,6 +15,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <cmath>
 #include <iostream>
 
 namespace perideal
@@ -30,7 +31,8 @@ namespace perideal
     , communicator(communicator)
     , screen(std::cout, dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
     , timings(communicator)
-  {}
+  {
+  }
 
   template <int dim>
   void Simulation<dim>::run()
@@ -46,14 +48,14 @@ namespace perideal
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << std::endl;
 
-    history = std::make_unique<History>(parameters.output_directory, communicator);
-    field_output =
-      std::make_unique<FieldOutput<dim>>(*scene.mesh,
-                                         *scene.nodes,
-                                         parameters.output_directory,
-                                         parameters.solver.load_steps > 1 ? OutputSteps::series : OutputSteps::single);
-    scene.system->initialize(displacement);
-    scene.system->initialize(external_force);
+    check_loads();
+
+    history      = std::make_unique<History>(parameters.output_directory, communicator);
+    field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
+                                                      *scene.nodes,
+                                                      parameters.output_directory,
+                                                      parameters.solver.load_steps > 1 ? OutputSteps::series :
+                                                                                         OutputSteps::single);
     try
       {
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
@@ -75,9 +77,8 @@ namespace perideal
     weigh_bonds();
     screen << banner(parameters, scene);
 
-    const std::size_t bytes = dealii::Utilities::MPI::sum(scene.families->memory_consumption() +
-                                                            scene.bonds->memory_consumption(),
-                                                          communicator);
+    const std::size_t bytes = dealii::Utilities::MPI::sum(
+      scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
     screen << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
            << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node; "
            << "the preconditioner takes about as much again\n";
@@ -86,7 +87,7 @@ namespace perideal
            << " s is the largest stable one of explicit dynamics\n";
     for (const auto id : scene.mesh->material_ids)
       {
-        const MaterialProperties &material = properties_of(id);
+        const MaterialProperties &material        = properties_of(id);
         double                    largest_horizon = 0;
         for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
           if (scene.nodes->material[i] == id)
@@ -95,9 +96,8 @@ namespace perideal
         screen << "material    " << id << ": ";
         if (material.fracture_energy > 0)
           screen << "critical stretch "
-                 << short_number(ordinary_critical_stretch(scene.constants.at(id),
-                                                           material.fracture_energy,
-                                                           largest_horizon))
+                 << short_number(ordinary_critical_stretch(
+                      scene.constants.at(id), material.fracture_energy, largest_horizon))
                  << " at the largest horizon, " << short_number(largest_horizon) << " m\n";
         else
           screen << "no fracture energy given, unbreakable\n";
@@ -201,8 +201,7 @@ namespace perideal
               "motions = remove");
     NodalVector      layout;
     dealii::IndexSet owned(dim * scene.nodes->n_global);
-    owned.add_range(dim * scene.nodes->first_global,
-                    dim * (scene.nodes->first_global + scene.nodes->size()));
+    owned.add_range(dim * scene.nodes->first_global, dim * (scene.nodes->first_global + scene.nodes->size()));
     layout.reinit(owned, communicator);
     scene.null_space = NullSpace<dim>(*scene.nodes, motions, free, layout);
   }
@@ -236,7 +235,7 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::step(const unsigned int number)
   {
-    const double time = static_cast<double>(number) / parameters.solver.load_steps;
+    const double time          = static_cast<double>(number) / parameters.solver.load_steps;
     summary["solver"]["steps"] = number;
     solve_equilibrium(time, displacement);
     record_step(number, time, displacement);
@@ -244,9 +243,8 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::solve_equilibrium(const double time, NodalVector &displacement)
+  void Simulation<dim>::apply_loads(const double time)
   {
-    const Timings::Scope scope(timings, "solve");
     scene.mirror->set_time(scene.loads, time);
     compute_nodal_forces(
       *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
@@ -260,18 +258,41 @@ namespace perideal
       }
     else
       scene.held.set_boundary_values(scene.loads, time, displacement);
+  }
+
+  template <int dim>
+  void Simulation<dim>::check_loads()
+  {
+    scene.system->initialize(displacement);
+    scene.system->initialize(external_force);
+    apply_loads(1.);
+    NodalVector residual;
+    scene.system->initialize(residual);
+    scene.system->residual(residual, external_force, displacement);
+    if (!std::isfinite(residual.l2_norm()))
+      throw InputError("a load or a prescribed displacement is not a finite number somewhere on its boundary")
+        .parameter("Boundary conditions")
+        .hint("check the formulas for poles and roots of negative numbers");
+    if (scene.null_space.share_in(residual) > 1e-6)
+      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
+        .parameter("Boundary conditions/Rigid body motions")
+        .hint("balance the loads, or hold the body");
+    displacement = 0.;
+  }
+
+  template <int dim>
+  void Simulation<dim>::solve_equilibrium(const double time, NodalVector &displacement)
+  {
+    const Timings::Scope scope(timings, "solve");
+    apply_loads(time);
 
     NodalVector residual, correction;
     scene.system->initialize(residual);
     scene.system->initialize(correction);
     scene.system->residual(residual, external_force, displacement);
-    if (scene.null_space.share_in(residual) > 1e-6)
-      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
-        .parameter("Boundary conditions/Rigid body motions")
-        .hint("balance the loads, or hold the body");
     scene.null_space.project(residual);
 
-    ProgressLine progress(std::cout,
+    ProgressLine      progress(std::cout,
                           dealii::Utilities::MPI::this_mpi_process(communicator) == 0,
                           "solving t = " + short_number(time),
                           parameters.solver.tolerance);
@@ -285,12 +306,12 @@ namespace perideal
     summary["solver"]["residuals"].push_back(result.residuals);
     store_displacement();
     if (!result.converged)
-      throw ComputationError("the linear solver (" + scene.linear_solver->name() + ") stopped at t = " +
-                             short_number(time) + " after " + std::to_string(result.iterations) +
-                             " iterations at a relative residual of " + short_number(result.residuals.back()) +
-                             ", not at " + short_number(parameters.solver.tolerance) +
-                             "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, take "
-                             "another Solver/Preconditioner, or check the scene with --check");
+      throw ComputationError(
+        "the linear solver (" + scene.linear_solver->name() + ") stopped at t = " + short_number(time) +
+        " after " + std::to_string(result.iterations) + " iterations at a relative residual of " +
+        short_number(result.residuals.back()) + ", not at " + short_number(parameters.solver.tolerance) +
+        "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, take "
+        "another Solver/Preconditioner, or check the scene with --check");
   }
 
   template <int dim>
@@ -304,37 +325,38 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::record_step(const unsigned int number, const double time, const NodalVector &displacement)
+  void
+  Simulation<dim>::record_step(const unsigned int number, const double time, const NodalVector &displacement)
   {
     NodalVector internal_force, free_force;
     scene.system->initialize_all(internal_force);
     scene.system->initialize(free_force);
     scene.system->internal_force(internal_force, displacement);
-    std::copy(internal_force.begin(), internal_force.begin() + free_force.locally_owned_size(), free_force.begin());
+    std::copy(
+      internal_force.begin(), internal_force.begin() + free_force.locally_owned_size(), free_force.begin());
 
     // Linear: the strain energy is half the work of all forces that act on the body.
-    const double image_work      = scene.mirror->prescribed_work(internal_force);
-    const double strain_energy   = 0.5 * (free_force * displacement + image_work);
+    const double image_work    = scene.mirror->prescribed_work(internal_force);
+    const double strain_energy = 0.5 * (free_force * displacement + image_work);
     free_force -= external_force;
-    const auto held_reactions  = scene.held.sum_by_condition(free_force, communicator);
-    const auto image_reactions = scene.mirror->sum_by_condition(internal_force);
-    const double external_work =
-      0.5 * (external_force * displacement + scene.held.work(free_force, displacement, communicator) + image_work);
+    const auto   held_reactions  = scene.held.sum_by_condition(free_force, communicator);
+    const auto   image_reactions = scene.mirror->sum_by_condition(internal_force);
+    const double external_work   = 0.5 * (external_force * displacement +
+                                        scene.held.work(free_force, displacement, communicator) + image_work);
 
     history->add("step", number);
     history->add("time [s]", time);
     history->add("strain energy [J]", strain_energy);
     history->add("external work [J]", external_work);
-    const char *axes[] = {"x", "y", "z"};
+    const char *axes[]    = {"x", "y", "z"};
     Json        reactions = Json::object();
     for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
       if (scene.loads.conditions[k].prescribes_displacement())
         for (int d = 0; d < dim; ++d)
           {
-            const std::string &name  = scene.loads.conditions[k].name;
-            const double       value = parameters.loads.displacement_treatment == "mirror" ?
-                                         image_reactions[k][d] :
-                                         held_reactions[k][d];
+            const std::string &name = scene.loads.conditions[k].name;
+            const double value = parameters.loads.displacement_treatment == "mirror" ? image_reactions[k][d] :
+                                                                                       held_reactions[k][d];
             history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
             reactions[name].push_back(value);
           }
@@ -380,19 +402,18 @@ namespace perideal
         }
       history->finish();
     }
-    Json result       = {{"status", status}, {"command", context.command}};
+    Json result          = {{"status", status}, {"command", context.command}};
     result["versions"]   = versions();
     result["parameters"] = context.parameters;
     result.update(describe_discretisation(parameters, scene));
     summary["solver"]["name"] = scene.linear_solver->name();
     result.update(summary);
-    result["skipped"]      = list_skipped(parameters, scene);
-    const auto seconds     = timings.seconds();
-    result["seconds"]      = seconds;
-    result["memory_bytes"] = peak_memory_bytes(communicator);
-    result["operator_bytes"] =
-      dealii::Utilities::MPI::sum(scene.families->memory_consumption() + scene.bonds->memory_consumption(),
-                                  communicator);
+    result["skipped"]        = list_skipped(parameters, scene);
+    const auto seconds       = timings.seconds();
+    result["seconds"]        = seconds;
+    result["memory_bytes"]   = peak_memory_bytes(communicator);
+    result["operator_bytes"] = dealii::Utilities::MPI::sum(
+      scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
     result["ranks"] = dealii::Utilities::MPI::n_mpi_processes(communicator);
     write_summary(parameters.output_directory + "/summary.json", result, communicator);
 

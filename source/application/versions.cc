@@ -16,11 +16,13 @@ namespace perideal
     const auto dotted = [](const int major, const int minor, const int patch) {
       return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
     };
-    return {{"perideal", version},
-            {"deal.II", DEAL_II_PACKAGE_VERSION},
-            {"Trilinos", TRILINOS_VERSION_STRING},
-            {"p4est", dotted(DEAL_II_P4EST_VERSION_MAJOR, DEAL_II_P4EST_VERSION_MINOR, DEAL_II_P4EST_VERSION_SUBMINOR)},
-            {"HDF5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
-            {"build type", build_type}};
+    return {
+      {"perideal", version},
+      {"deal.II", DEAL_II_PACKAGE_VERSION},
+      {"Trilinos", TRILINOS_VERSION_STRING},
+      {"p4est",
+       dotted(DEAL_II_P4EST_VERSION_MAJOR, DEAL_II_P4EST_VERSION_MINOR, DEAL_II_P4EST_VERSION_SUBMINOR)},
+      {"HDF5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
+      {"build type", build_type}};
   }
 } // namespace perideal

@@ -55,7 +55,7 @@ namespace perideal
 
   void InputError::compose()
   {
-    message = (where.empty() ? "" : where + ": ") + problem;
+    message             = (where.empty() ? "" : where + ": ") + problem;
     const auto add_line = [&](const char *label, const std::string &text) {
       if (!text.empty())
         message += std::string("\n  ") + label + text;

@@ -14,7 +14,8 @@ namespace perideal
   RigidBodyMotions<dim>::RigidBodyMotions(const dealii::Point<dim> &centre, const double size)
     : centre(centre)
     , size(size)
-  {}
+  {
+  }
 
   template <int dim>
   dealii::Tensor<1, dim> RigidBodyMotions<dim>::basic_motion(const unsigned int        motion,

@@ -11,11 +11,13 @@ namespace perideal
     : communicator(communicator)
     , silent(std::cout, false)
     , timer(silent, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
-  {}
+  {
+  }
 
   Timings::Scope::Scope(Timings &timings, const std::string &phase)
     : scope(timings.timer, phase)
-  {}
+  {
+  }
 
   std::map<std::string, double> Timings::seconds() const
   {

@@ -40,7 +40,8 @@ namespace perideal
         displacement.local_element(i) = 0;
     for (const Entry &entry : list)
       displacement.local_element(dim * entry.node + entry.component) +=
-        entry.share * loads.conditions[entry.condition].displacement[entry.component].value(entry.point, time);
+        entry.share *
+        loads.conditions[entry.condition].displacement[entry.component].value(entry.point, time);
   }
 
   template <int dim>
@@ -65,7 +66,8 @@ namespace perideal
   }
 
   template <int dim>
-  double HeldNodes<dim>::work(const NodalVector &force, const NodalVector &displacement, MPI_Comm communicator) const
+  double
+  HeldNodes<dim>::work(const NodalVector &force, const NodalVector &displacement, MPI_Comm communicator) const
   {
     double sum = 0;
     for (std::size_t i = 0; i < held.size(); ++i)

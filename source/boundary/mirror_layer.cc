@@ -31,7 +31,8 @@ namespace perideal
   MirrorLayer<dim>::MirrorLayer(const NodeCloud<dim> &real)
     : all(real)
     , n_real_nodes(real.size())
-  {}
+  {
+  }
 
   template <int dim>
   MirrorLayer<dim>::MirrorLayer(const Mesh<dim>                                            &mesh,
@@ -58,14 +59,14 @@ namespace perideal
         Plane plane     = make_plane(mesh, faces, entry.first);
         plane.condition = entry.second;
 
-        const int axis        = axis_of(plane.normal);
-        const int n_free      = std::count(plane.condition.begin(), plane.condition.end(), -1);
+        const int  axis        = axis_of(plane.normal);
+        const int  n_free      = std::count(plane.condition.begin(), plane.condition.end(), -1);
         const bool normal_held = axis >= 0 && plane.condition[axis] >= 0;
         if (axis < 0 && n_free > 0)
           throw InputError("the mirrored layer of a boundary that is not along the axes needs all components")
-            .parameter("Boundary conditions/" + loads.conditions[*std::max_element(plane.condition.begin(),
-                                                                                   plane.condition.end())]
-                                                  .name)
+            .parameter(
+              "Boundary conditions/" +
+              loads.conditions[*std::max_element(plane.condition.begin(), plane.condition.end())].name)
             .hint("prescribe all components there, or take Displacement treatment = layer");
         symmetric = symmetric && ((normal_held && n_free == dim - 1) || (!normal_held && n_free == 1));
         planes.push_back(plane);
@@ -112,8 +113,8 @@ namespace perideal
         plane.lower[d] = min(plane.lower[d], all.communicator);
         plane.upper[d] = max(plane.upper[d], all.communicator);
       }
-    plane.point  = dealii::Point<dim>(sum(centre, all.communicator) / area);
-    normal       = sum(normal, all.communicator);
+    plane.point = dealii::Point<dim>(sum(centre, all.communicator) / area);
+    normal      = sum(normal, all.communicator);
     // The faces of a closed curve have normals that cancel.
     plane.normal = normal / std::max(normal.norm(), 1e-300);
 
@@ -149,7 +150,7 @@ namespace perideal
         const double distance = (plane.point - all.position[i]) * plane.normal;
         if (distance <= 0 || distance > depth)
           continue;
-        const dealii::Point<dim> foot = all.position[i] + distance * plane.normal;
+        const dealii::Point<dim> foot   = all.position[i] + distance * plane.normal;
         bool                     inside = true;
         for (int d = 0; d < dim; ++d)
           // Images of images stand beside the boundary, one depth away at most.
@@ -163,8 +164,8 @@ namespace perideal
         image.plane  = plane_number;
         image.foot   = foot;
         for (int d = 0; d < dim; ++d)
-          image.sign[d] = (plane.condition[d] >= 0 ? -1. : 1.) *
-                          (i < n_real_nodes ? 1. : images[i - n_real_nodes].sign[d]);
+          image.sign[d] =
+            (plane.condition[d] >= 0 ? -1. : 1.) * (i < n_real_nodes ? 1. : images[i - n_real_nodes].sign[d]);
         images.push_back(image);
         all.position.push_back(all.position[i] + 2. * distance * plane.normal);
         all.volume.push_back(all.volume[i]);
@@ -188,7 +189,8 @@ namespace perideal
             image.offset[d] =
               plane.condition[d] < 0 ?
                 parent_offset :
-                2. * loads.conditions[plane.condition[d]].displacement[d].value(image.foot, time) - parent_offset;
+                2. * loads.conditions[plane.condition[d]].displacement[d].value(image.foot, time) -
+                  parent_offset;
           }
       }
   }

@@ -15,28 +15,33 @@ namespace perideal
   {
     explicit Implementation(const ElasticFem<dim> &fem)
       : near_null_space(fem.matrix().trilinos_matrix().DomainMap(), RigidBodyMotions<dim>::n_motions)
-    {}
+    {
+    }
 
     // ML keeps a pointer to these values; declared first so that it goes last.
-    Epetra_MultiVector                         near_null_space;
+    Epetra_MultiVector                        near_null_space;
     dealii::TrilinosWrappers::PreconditionAMG multigrid;
   };
 
   namespace
   {
-    /// Values of all rigid-body motions at the unknowns. Translations alone (as
-    /// deal.II's constant_modes) let the iterations grow with the mesh.
+    /// Values of all rigid-body motions at the unknowns, zero at held ones: coarse
+    /// functions that moved those would be stiff along the whole held boundary.
+    /// Translations alone (as deal.II's constant_modes) let the iterations grow
+    /// with the mesh.
     template <int dim>
     void fill_rigid_body_modes(const ElasticFem<dim> &fem, Epetra_MultiVector &modes)
     {
       const auto points  = owned_support_points(fem.mapping(), fem.dof_handler());
+      const auto owned   = fem.dof_handler().locally_owned_dofs();
       const auto motions = motions_about_middle(points, fem.dof_handler().get_communicator());
       for (unsigned int mode = 0; mode < RigidBodyMotions<dim>::n_motions; ++mode)
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             const dealii::Tensor<1, dim> value = motions.basic_motion(mode, points[i]);
             for (unsigned int d = 0; d < dim; ++d)
-              modes[mode][dim * i + d] = value[d];
+              modes[mode][dim * i + d] =
+                fem.constraints().is_constrained(owned.nth_index_in_set(dim * i + d)) ? 0. : value[d];
           }
     }
 
@@ -48,13 +53,15 @@ namespace perideal
       ML_Epetra::SetDefaults("SA", options);
       options.set("ML output", 0);
       options.set("PDE equations", dim);
-      options.set("prec type", "MGV");
+      // A W cycle: on graded meshes a V cycle lets the iterations grow with the mesh.
+      options.set("prec type", "MGW");
       options.set("cycle applications", 1);
       options.set("aggregation: type", "Uncoupled");
       // Elasticity has no strength of connection to go by: keep all couplings.
       options.set("aggregation: threshold", 0.);
       options.set("smoother: type", "Chebyshev");
       options.set("smoother: sweeps", 2);
+
       options.set("smoother: pre or post", "both");
       if (!smooth_finest)
         options.set("smoother: type (level 0)", "do-nothing");

@@ -24,7 +24,8 @@ namespace perideal
       PrescribedDisplacement(const BoundaryCondition<dim> &condition, const double time)
         : dealii::Function<dim>(dim, time)
         , condition(condition)
-      {}
+      {
+      }
 
       double value(const dealii::Point<dim> &point, const unsigned int component) const override
       {
@@ -49,15 +50,16 @@ namespace perideal
       {
         if (!condition.prescribes_displacement())
           continue;
-        const PrescribedDisplacement<dim>                                     displacement(condition, time);
-        std::map<dealii::types::boundary_id, const dealii::Function<dim> *>   functions;
+        const PrescribedDisplacement<dim>                                   displacement(condition, time);
+        std::map<dealii::types::boundary_id, const dealii::Function<dim> *> functions;
         for (const std::string &boundary : condition.boundaries)
           functions[mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary")] =
             &displacement;
         dealii::ComponentMask components(dim, false);
         for (unsigned int d = 0; d < dim; ++d)
           components.set(d, condition.displacement[d].is_present());
-        dealii::VectorTools::interpolate_boundary_values(mapping, unknowns, functions, constraints, components);
+        dealii::VectorTools::interpolate_boundary_values(
+          mapping, unknowns, functions, constraints, components);
       }
   }
 
@@ -117,7 +119,8 @@ namespace perideal
       const Candidate<dim> *winner = nullptr;
       for (const Candidate<dim> &candidate : candidates)
         // Round-off must not decide between unknowns that move alike.
-        if (mobility(motions, free_motions, candidate) >= (1. - 1e-9) * largest && candidate.place() < smallest)
+        if (mobility(motions, free_motions, candidate) >= (1. - 1e-9) * largest &&
+            candidate.place() < smallest)
           {
             smallest = candidate.place();
             winner   = &candidate;
@@ -169,16 +172,15 @@ namespace perideal
     return n_pins;
   }
 
-#define INSTANTIATE(dim)                                                                            \
-  template void         add_prescribed_displacements(const dealii::Mapping<dim> &,                  \
-                                             const dealii::DoFHandler<dim> &,               \
-                                             const Mesh<dim> &,                             \
-                                             const Loads<dim> &,                            \
-                                             const double,                                  \
-                                             dealii::AffineConstraints<double> &);          \
-  template unsigned int pin_free_motions(const dealii::Mapping<dim> &,                              \
-                                         const dealii::DoFHandler<dim> &,                           \
-                                         dealii::AffineConstraints<double> &)
+#define INSTANTIATE(dim)                                                                                     \
+  template void         add_prescribed_displacements(const dealii::Mapping<dim> &,                           \
+                                                     const dealii::DoFHandler<dim> &,                        \
+                                                     const Mesh<dim> &,                                      \
+                                                     const Loads<dim> &,                                     \
+                                                     const double,                                           \
+                                                     dealii::AffineConstraints<double> &);                   \
+  template unsigned int pin_free_motions(                                                                    \
+    const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)
   INSTANTIATE(2);
   INSTANTIATE(3);
 #undef INSTANTIATE

@@ -15,10 +15,10 @@
 namespace perideal
 {
   template <int dim>
-  ElasticFem<dim>::ElasticFem(const Mesh<dim>    &mesh,
-                              const Loads<dim>   &loads,
-                              const unsigned int  degree,
-                              const unsigned int  refinements)
+  ElasticFem<dim>::ElasticFem(const Mesh<dim>   &mesh,
+                              const Loads<dim>  &loads,
+                              const unsigned int degree,
+                              const unsigned int refinements)
     : mesh(mesh)
     , loads(loads)
     , has_body_force(std::any_of(loads.body_force.begin(),
@@ -80,9 +80,9 @@ namespace perideal
   {
     const auto material = constants.find(cell->material_id());
     // Not an Assert: in Release a body without stiffness would come out, silently.
-    AssertThrow(material != constants.end(),
-                dealii::ExcMessage("no elastic constants for material id " +
-                                   std::to_string(cell->material_id())));
+    AssertThrow(
+      material != constants.end(),
+      dealii::ExcMessage("no elastic constants for material id " + std::to_string(cell->material_id())));
     integrals.stiffness(cell, material->second, matrix);
 
     forces = 0.;
@@ -142,9 +142,9 @@ namespace perideal
   {
     if (preconditioner == nullptr)
       set_up_solver();
-    const unsigned int             largest_number_of_iterations = 2000;
-    dealii::SolverControl          control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
-    dealii::SolverCG<NodalVector>  cg(control);
+    const unsigned int    largest_number_of_iterations = 2000;
+    dealii::SolverControl control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
+    dealii::SolverCG<NodalVector> cg(control);
     displacement = 0.;
     try
       {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/elastic_fem.h>
+#include <perideal/fem/point_evaluation.h>
 
-#include <deal.II/base/mpi_remote_point_evaluation.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/numerics/vector_tools_evaluate.h>
 
-#include <sstream>
+#include <algorithm>
 
 namespace perideal
 {
@@ -15,38 +14,7 @@ namespace perideal
   std::vector<dealii::Tensor<1, dim>>
   ElasticFem<dim>::evaluate(const std::vector<dealii::Point<dim>> &points) const
   {
-    std::vector<dealii::Tensor<1, dim>> result(points.size());
-    std::vector<std::size_t>            wanted(points.size());
-    std::iota(wanted.begin(), wanted.end(), 0);
-
-    const MPI_Comm communicator = unknowns.get_communicator();
-    // The tolerance is a distance in unit-cell coordinates.
-    for (const double tolerance : {1e-6, 1e-1})
-      {
-        std::vector<dealii::Point<dim>> wanted_points(wanted.size());
-        std::transform(wanted.begin(), wanted.end(), wanted_points.begin(), [&](const std::size_t i) {
-          return points[i];
-        });
-        dealii::Utilities::MPI::RemotePointEvaluation<dim> search(tolerance, true);
-        search.reinit(wanted_points, unknowns.get_triangulation(), geometry);
-        const auto values = dealii::VectorTools::point_values<dim>(search, unknowns, displacement);
-
-        std::vector<std::size_t> lost;
-        for (unsigned int k = 0; k < wanted.size(); ++k)
-          if (search.point_found(k))
-            result[wanted[k]] = values[k];
-          else
-            lost.push_back(wanted[k]);
-        wanted = lost;
-        if (dealii::Utilities::MPI::max<unsigned int>(wanted.size(), communicator) == 0)
-          return result;
-      }
-
-    std::ostringstream message;
-    message << "the finite-element solution is asked for at a point outside the body";
-    if (!wanted.empty())
-      message << ": (" << points[wanted.front()] << ")";
-    throw ComputationError(message.str());
+    return PointEvaluation<dim>(geometry, unknowns, displacement).evaluate(points);
   }
 
   template <int dim>
@@ -62,8 +30,9 @@ namespace perideal
     for (const Cell &cell : unknowns.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int       index      = cell->active_cell_index();
-          const dealii::Point<dim> unit_point = geometry.transform_real_to_unit_cell(cell, point_of_cell[index]);
+          const unsigned int       index = cell->active_cell_index();
+          const dealii::Point<dim> unit_point =
+            geometry.transform_real_to_unit_cell(cell, point_of_cell[index]);
           cell->get_dof_indices(indices);
           for (unsigned int a = 0; a < scalar.n_dofs_per_cell(); ++a)
             {
@@ -98,7 +67,8 @@ namespace perideal
         {
           // Only cells with a constrained unknown contribute to a held one.
           cell->get_dof_indices(indices);
-          if (std::none_of(indices.begin(), indices.end(), [&](const auto i) { return held.is_constrained(i); }))
+          if (std::none_of(
+                indices.begin(), indices.end(), [&](const auto i) { return held.is_constrained(i); }))
             continue;
           cell_system(cell, integrals, matrix, forces);
           cell->get_dof_values(displacement, values);

@@ -18,6 +18,19 @@ namespace perideal
       return false;
     }
 
+    /// Spherical deviatoric weights times one factor, so that at least the trace
+    /// of the moment conditions holds: sum_j wd |xi|^2 V_j = dim (dim+2)/2.
+    template <int dim>
+    std::vector<double> scaled_to_trace(const FamilyView<dim> &family, std::vector<double> weights)
+    {
+      double trace = 0;
+      for (LocalIndex j = 0; j < family.size; ++j)
+        trace += weights[j] * family.length_square[j] * family.volume[j];
+      for (double &weight : weights)
+        weight *= dim * (dim + 2) / (2. * trace);
+      return weights;
+    }
+
     template <int dim>
     const Registry<typename ExtendedOrdinary<dim>::Form> &forms()
     {
@@ -46,7 +59,8 @@ namespace perideal
     : form(form)
     , influence(influence)
     , thickness(thickness)
-  {}
+  {
+  }
 
   template <int dim>
   FamilyShape ExtendedOrdinary<dim>::shape() const
@@ -71,20 +85,22 @@ namespace perideal
     // w = ws + lambda.monomials                                   (35), (55)
     hydrostatic_conditions.reinit(family);
     deviatoric_conditions.reinit(family);
-    double missed_h = hydrostatic_conditions.correct(wh);
-    double missed_d = deviatoric_conditions.correct(wd);
+    const double missed_h = hydrostatic_conditions.correct(wh);
+    double       missed_d = deviatoric_conditions.correct(wd);
 
     FamilyReport report;
     report.indefinite = any_negative(wd, spherical_deviatoric);
     if (form == Form::paper)
       report.fallback = any_negative(wh, spherical);
+    else if (report.indefinite && deviatoric_conditions.correct_nonnegative(spherical_deviatoric, wd))
+      missed_d = 0.;
     else if (report.indefinite)
       {
-        missed_d        = deviatoric_conditions.correct_nonnegative(spherical_deviatoric, wd);
-        report.fallback = missed_d > MomentConditions<dim, 4>::tolerance;
+        report.fallback = true;
+        missed_d        = 1.;
+        wd              = scaled_to_trace(family, spherical_deviatoric);
       }
-    report.singular =
-      std::max(missed_h, missed_d) > MomentConditions<dim, 4>::tolerance;
+    report.singular = std::max(missed_h, missed_d) > MomentConditions<dim, 4>::tolerance;
     return report;
   }
 
@@ -99,7 +115,8 @@ namespace perideal
   }
 
   template <int dim>
-  void ExtendedOrdinary<dim>::compute_paper(const FamilyView<dim> &family, FamilyCoefficients &coefficients) const
+  void ExtendedOrdinary<dim>::compute_paper(const FamilyView<dim> &family,
+                                            FamilyCoefficients    &coefficients) const
   {
     // t = kappa wh |xi| theta + 2 mu wd (e - theta |xi|/dim)      (70)
     // theta always has the corrected weight; the force has the spherical ones
@@ -118,7 +135,8 @@ namespace perideal
   }
 
   template <int dim>
-  void ExtendedOrdinary<dim>::compute_energy(const FamilyView<dim> &family, FamilyCoefficients &coefficients) const
+  void ExtendedOrdinary<dim>::compute_energy(const FamilyView<dim> &family,
+                                             FamilyCoefficients    &coefficients) const
   {
     // t = wh |xi| (kappa theta - 2 mu q/dim) + 2 mu wd (e - theta |xi|/dim),
     // q = sum_j wd e^d |xi| V_j = h - theta s/dim,

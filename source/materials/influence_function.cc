@@ -12,13 +12,22 @@ namespace perideal
   namespace
   {
     // omega = 1
-    double constant(const double) { return 1.; }
+    double constant(const double)
+    {
+      return 1.;
+    }
 
     // omega = horizon/|xi|
-    double inverse(const double s) { return 1. / s; }
+    double inverse(const double s)
+    {
+      return 1. / s;
+    }
 
     // omega = exp(-(2 s)^2)
-    double gaussian(const double s) { return std::exp(-4. * s * s); }
+    double gaussian(const double s)
+    {
+      return std::exp(-4. * s * s);
+    }
 
     // The cubic B-spline that vanishes at s = 1 with two derivatives.
     double cubic_spline(const double s)
@@ -48,28 +57,24 @@ namespace perideal
   InfluenceFunction::InfluenceFunction(const std::string &name)
     : function(choices().get(name).function)
     , fades_out(choices().get(name).fades_out)
-  {}
+  {
+    // 2 pi int omega s^3 ds and 4 pi int omega s^4 ds; the halves keep the
+    // spline's kink out of the Gauss rule.
+    const dealii::QIterated<1> quadrature(dealii::QGauss<1>(16), 2);
+    for (int dim = 2; dim <= 3; ++dim)
+      {
+        double integral = 0;
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            const double s = quadrature.point(q)[0];
+            integral += quadrature.weight(q) * function(s) * std::pow(s, dim + 1);
+          }
+        unit_weighted_volume[dim - 2] = 2. * (dim - 1) * dealii::numbers::PI * integral;
+      }
+  }
 
   std::vector<std::string> InfluenceFunction::names()
   {
     return choices().names();
   }
-
-  template <int dim>
-  double InfluenceFunction::weighted_volume(const double horizon) const
-  {
-    // 2 pi int omega r^3 dr and 4 pi int omega r^4 dr; the halves keep the
-    // spline's kink out of the Gauss rule.
-    const dealii::QIterated<1> quadrature(dealii::QGauss<1>(16), 2);
-    double                     integral = 0;
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      {
-        const double s = quadrature.point(q)[0];
-        integral += quadrature.weight(q) * function(s) * std::pow(s, dim + 1);
-      }
-    return 2. * (dim - 1) * dealii::numbers::PI * integral * std::pow(horizon, dim + 2);
-  }
-
-  template double InfluenceFunction::weighted_volume<2>(const double) const;
-  template double InfluenceFunction::weighted_volume<3>(const double) const;
 } // namespace perideal

@@ -24,9 +24,8 @@ namespace perideal
           }},
          {"extended ordinary",
           [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
-            return std::make_unique<ExtendedOrdinary<dim>>(ExtendedOrdinary<dim>::form_of(p.form),
-                                                           InfluenceFunction(p.influence_function),
-                                                           thickness);
+            return std::make_unique<ExtendedOrdinary<dim>>(
+              ExtendedOrdinary<dim>::form_of(p.form), InfluenceFunction(p.influence_function), thickness);
           }}});
       return list;
     }
@@ -49,19 +48,21 @@ namespace perideal
                       "What a bond does: ordinary: state-based peridynamics without corrections; extended "
                       "ordinary: with multipliers that make families of any shape exact for uniform strain",
                       Selection(selection(models<2>().names())));
-    prm.add_parameter("Form",
-                      form,
-                      "Force of the extended ordinary model: paper: as published, not the gradient of an energy, "
-                      "non-symmetric; energy: the gradient of the strain energy, symmetric",
-                      Selection(selection(ExtendedOrdinary<2>::form_names())));
+    prm.add_parameter(
+      "Form",
+      form,
+      "Force of the extended ordinary model: paper: as published, not the gradient of an energy, "
+      "non-symmetric; energy: the gradient of the strain energy, symmetric",
+      Selection(selection(ExtendedOrdinary<2>::form_names())));
     prm.leave_subsection();
 
     prm.enter_subsection("Nodes");
-    prm.add_parameter("Influence function",
-                      influence_function,
-                      "How much a bond counts by its length over the horizon: 1, 1/s, exp(-(2s)^2), or the cubic "
-                      "B-spline that vanishes at s = 1",
-                      Selection(selection(InfluenceFunction::names())));
+    prm.add_parameter(
+      "Influence function",
+      influence_function,
+      "How much a bond counts by its length over the horizon: 1, 1/s, exp(-(2s)^2), or the cubic "
+      "B-spline that vanishes at s = 1",
+      Selection(selection(InfluenceFunction::names())));
     prm.leave_subsection();
   }
 

@@ -29,7 +29,8 @@ namespace perideal
     template <>
     struct Monomials<2, 4>
     {
-      static constexpr int factors[5][4] = {{0, 0, 0, 0}, {1, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}, {1, 1, 1, 0}};
+      static constexpr int factors[5][4] = {
+        {0, 0, 0, 0}, {1, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}, {1, 1, 1, 0}};
     };
 
     template <>
@@ -72,7 +73,7 @@ namespace perideal
   template <int dim, int order>
   void MomentConditions<dim, order>::reinit(const FamilyView<dim> &family)
   {
-    using Array = Eigen::Map<const Eigen::ArrayXd>;
+    using Array          = Eigen::Map<const Eigen::ArrayXd>;
     const Eigen::Index n = family.size;
     horizon_square       = family.horizon * family.horizon;
     volume               = Array(family.volume.data(), n);
@@ -105,19 +106,20 @@ namespace perideal
   typename MomentConditions<dim, order>::Vector
   MomentConditions<dim, order>::solve(const Vector &right_hand_side) const
   {
-    const Vector                scaled = scaling.cwiseProduct(right_hand_side);
-    const Eigen::LLT<Matrix>    cholesky(gram);
+    const Vector             scaled = scaling.cwiseProduct(right_hand_side);
+    const Eigen::LLT<Matrix> cholesky(gram);
     // The diagonal of the factor bounds the smallest eigenvalue from above;
     // a small one may hide a singular system, which needs the slow way.
     if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().minCoeff() > 1e-3)
       return scaling.cwiseProduct(cholesky.solve(scaled));
 
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
-    Vector coordinates = eigen.eigenvectors().transpose() * scaled;
+    Vector                                      coordinates = eigen.eigenvectors().transpose() * scaled;
     for (int k = 0; k < n_conditions; ++k)
       {
         const double value = eigen.eigenvalues()[k];
-        coordinates[k] = value > rank_tolerance * eigen.eigenvalues()[n_conditions - 1] ? coordinates[k] / value : 0.;
+        coordinates[k] =
+          value > rank_tolerance * eigen.eigenvalues()[n_conditions - 1] ? coordinates[k] / value : 0.;
       }
     return scaling.cwiseProduct(eigen.eigenvectors() * coordinates);
   }
@@ -133,91 +135,57 @@ namespace perideal
   }
 
   template <int dim, int order>
-  typename MomentConditions<dim, order>::Vector
-  MomentConditions<dim, order>::bounded_multipliers(const Eigen::Ref<const Eigen::ArrayXd> &spherical,
-                                                    const Vector                           &target,
-                                                    const double                            regularisation,
-                                                    Vector                                  multipliers) const
+  bool MomentConditions<dim, order>::correct_nonnegative(const std::vector<double> &spherical,
+                                                         std::vector<double>       &weights) const
   {
     // The bounded minimiser is w = max(0, ws + lambda.m), where lambda minimises
-    // the convex dual 1/2 sum V w^2 - r.lambda + regularisation/2 |lambda|^2
-    // (lambda in scaled coordinates): Newton with the active set as it stands.
-    const Vector scaled_target = scaling.cwiseProduct(target);
-    const auto   scaled        = [&](const Vector &lambda) -> Vector { return scaling.cwiseProduct(lambda); };
-    Vector       lambda        = multipliers.cwiseQuotient(scaling);
-    const auto   weights_of    = [&](const Vector &l) -> Eigen::ArrayXd {
-      return (spherical + (monomials * scaled(l)).array()).max(0.);
+    // the convex dual 1/2 sum V w^2 - lambda.r. Newton's method on it, lambda in
+    // scaled coordinates, the bounds that are active taken as they stand.
+    const Eigen::Map<const Eigen::ArrayXd> ws(spherical.data(), spherical.size());
+    const Vector                           scaled_target = scaling.cwiseProduct(target);
+    const double                           size          = scaled_target.cwiseAbs().maxCoeff();
+
+    struct Iterate
+    {
+      Vector         lambda, gradient;
+      Eigen::ArrayXd weights;
+      double         dual;
     };
-    const auto dual = [&](const Vector &l, const Eigen::ArrayXd &w) {
-      return 0.5 * (w.square() * volume).sum() - scaled_target.dot(l) + 0.5 * regularisation * l.squaredNorm();
+    const auto evaluate = [&](const Vector &lambda) {
+      Iterate at;
+      at.lambda   = lambda;
+      at.weights  = (ws + (monomials * scaling.cwiseProduct(lambda)).array()).max(0.);
+      at.gradient = -scaling.cwiseProduct(miss(at.weights));
+      at.dual     = 0.5 * (at.weights.square() * volume).sum() - scaled_target.dot(lambda);
+      return at;
     };
 
-    Eigen::ArrayXd weights = weights_of(lambda);
-    double         value   = dual(lambda, weights);
-    const double   scale   = scaled_target.cwiseAbs().maxCoeff();
-    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+    Iterate now = evaluate(Vector::Zero());
+    for (unsigned int iteration = 0; iteration < 50 && now.gradient.cwiseAbs().maxCoeff() > 1e-15 * size;
+         ++iteration)
       {
-        const Vector gradient = scaled(monomials.transpose() * (weights * volume).matrix()) - scaled_target +
-                                regularisation * lambda;
-        if (gradient.cwiseAbs().maxCoeff() <= 1e-15 * scale)
-          break;
-        const Eigen::ArrayXd active = (weights > 0).select(volume, 0.);
-        Matrix               hessian =
-          scaling.asDiagonal() * (monomials.transpose() * (monomials.array().colwise() * active).matrix()) *
-          scaling.asDiagonal();
-        hessian.diagonal().array() += std::max(regularisation, 1e-13);
-        const Vector step      = Eigen::LDLT<Matrix>(hessian).solve(-gradient);
-        const double slope     = gradient.dot(step);
-        double       length    = 1;
-        bool         decreased = false;
-        for (; length > 1e-6 && !decreased; length *= 0.5)
+        const Eigen::ArrayXd active  = (now.weights > 0).select(volume, 0.);
+        Matrix               hessian = scaling.asDiagonal() *
+                         (monomials.transpose() * (monomials.array().colwise() * active).matrix()) *
+                         scaling.asDiagonal();
+        hessian.diagonal().array() += 1e-14;
+        const Vector step  = Eigen::LDLT<Matrix>(hessian).solve(-now.gradient);
+        const double slope = now.gradient.dot(step);
+        bool         moved = false;
+        for (double length = 1; length > 1e-6 && !moved; length *= 0.5)
           {
-            const Vector         trial         = lambda + length * step;
-            const Eigen::ArrayXd trial_weights = weights_of(trial);
-            const double         trial_value   = dual(trial, trial_weights);
-            if (trial_value <= value + 1e-4 * length * slope)
-              {
-                lambda    = trial;
-                weights   = trial_weights;
-                value     = trial_value;
-                decreased = true;
-              }
+            Iterate next = evaluate(now.lambda + length * step);
+            // Near the minimum the dual changes less than round-off; the gradient tells.
+            moved = next.dual < now.dual + 1e-4 * length * slope ||
+                    next.gradient.squaredNorm() < 0.25 * now.gradient.squaredNorm();
+            if (moved)
+              now = std::move(next);
           }
-        if (!decreased)
+        if (!moved)
           break;
       }
-    return scaled(lambda);
-  }
-
-  template <int dim, int order>
-  double MomentConditions<dim, order>::correct_nonnegative(const std::vector<double> &spherical,
-                                                           std::vector<double>       &weights) const
-  {
-    const Eigen::Map<const Eigen::ArrayXd> ws(spherical.data(), spherical.size());
-    Weights                                w(weights.data(), weights.size());
-
-    const auto evaluate = [&](const double regularisation) {
-      // Aiming past the target by what was missed removes the regularisation's trace.
-      Vector aim = target, multipliers = Vector::Zero();
-      double missed = 0;
-      for (int pass = 0; pass < 3; ++pass)
-        {
-          multipliers = bounded_multipliers(ws, aim, regularisation, multipliers);
-          w           = (ws + (monomials * multipliers).array()).max(0.);
-          const Vector difference = miss(w);
-          missed                  = difference.cwiseAbs().maxCoeff() * horizon_square;
-          if (missed <= tolerance || regularisation > 1e-6)
-            break;
-          aim += difference;
-        }
-      return missed;
-    };
-    const double missed = evaluate(1e-12);
-    if (missed <= tolerance)
-      return missed;
-    // No non-negative weights meet the conditions: weigh their miss against
-    // the distance from the spherical weights.
-    return evaluate(1e-3 / n_conditions);
+    Weights(weights.data(), weights.size()) = now.weights;
+    return miss(now.weights).cwiseAbs().maxCoeff() * horizon_square <= tolerance;
   }
 
   template class MomentConditions<2, 2>;

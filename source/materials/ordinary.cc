@@ -12,8 +12,7 @@ namespace perideal
                          std::vector<double>     &hydrostatic)
   {
     hydrostatic.resize(family.size);
-    const double factor = dim / (influence.template weighted_volume<dim>(1.) *
-                                 std::pow(family.horizon, dim + 2) * thickness);
+    const double factor = dim / (influence.template weighted_volume<dim>(family.horizon) * thickness);
     for (LocalIndex j = 0; j < family.size; ++j)
       hydrostatic[j] =
         factor * influence.value(std::sqrt(family.length_square[j]), family.horizon, family.bond_horizon[j]);
@@ -23,7 +22,8 @@ namespace perideal
   Ordinary<dim>::Ordinary(const InfluenceFunction &influence, const double thickness)
     : influence(influence)
     , thickness(thickness)
-  {}
+  {
+  }
 
   template <int dim>
   void Ordinary<dim>::compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients)
@@ -42,14 +42,10 @@ namespace perideal
     coefficients.map = {{family.node_volume * (kappa - mu * (dim + 2) / dim), 0., 0.}};
   }
 
-  template void spherical_weights(const FamilyView<2> &,
-                                  const InfluenceFunction &,
-                                  const double,
-                                  std::vector<double> &);
-  template void spherical_weights(const FamilyView<3> &,
-                                  const InfluenceFunction &,
-                                  const double,
-                                  std::vector<double> &);
+  template void
+  spherical_weights(const FamilyView<2> &, const InfluenceFunction &, const double, std::vector<double> &);
+  template void
+  spherical_weights(const FamilyView<3> &, const InfluenceFunction &, const double, std::vector<double> &);
   template class Ordinary<2>;
   template class Ordinary<3>;
 } // namespace perideal

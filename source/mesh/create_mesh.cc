@@ -16,8 +16,7 @@ namespace perideal
   namespace
   {
     /// "7,680"
-    std::string
-    with_commas(const std::uint64_t number)
+    std::string with_commas(const std::uint64_t number)
     {
       std::string text = std::to_string(number);
       for (int position = static_cast<int>(text.size()) - 3; position > 0; position -= 3)
@@ -26,23 +25,23 @@ namespace perideal
     }
 
     template <int dim>
-    void
-    fill(const MeshParameters &parameters, MPI_Comm communicator, const std::string &scene_directory,
-         CoarseMesh<dim> &coarse)
+    void fill(const MeshParameters &parameters,
+              MPI_Comm              communicator,
+              const std::string    &scene_directory,
+              CoarseMesh<dim>      &coarse)
     {
       if (!parameters.generator.empty())
         generate_mesh(parameters, coarse);
       else
-      {
-        const MeshFile file = load_mesh_file(parameters.file, scene_directory, dim, communicator);
-        read_gmsh(file.text, file.path, coarse);
-      }
+        {
+          const MeshFile file = load_mesh_file(parameters.file, scene_directory, dim, communicator);
+          read_gmsh(file.text, file.path, coarse);
+        }
     }
 
     /// Takes over names of groups that have members, and the ids of all.
     template <int dim>
-    void
-    take_groups(const CoarseMesh<dim> &coarse, Mesh<dim> &mesh)
+    void take_groups(const CoarseMesh<dim> &coarse, Mesh<dim> &mesh)
     {
       for (const dealii::types::boundary_id id : coarse.triangulation.get_boundary_ids())
         mesh.boundary_ids.insert(id);
@@ -58,15 +57,14 @@ namespace perideal
 
     /// Cells are numbered with 32 bits.
     template <int dim>
-    void
-    check_refinements(const MeshParameters &parameters, const CoarseMesh<dim> &coarse)
+    void check_refinements(const MeshParameters &parameters, const CoarseMesh<dim> &coarse)
     {
-      const double n_cells = std::ldexp(static_cast<double>(coarse.triangulation.n_active_cells()),
-                                        dim * parameters.refinements);
+      const double n_cells =
+        std::ldexp(static_cast<double>(coarse.triangulation.n_active_cells()), dim * parameters.refinements);
       if (n_cells > 4e9)
         throw InputError("so many refinements make " + std::to_string(n_cells) + " cells")
-            .parameter("Mesh/Refinements")
-            .allowed("up to 4,000,000,000 cells in all");
+          .parameter("Mesh/Refinements")
+          .allowed("up to 4,000,000,000 cells in all");
     }
   } // namespace
 
@@ -93,15 +91,15 @@ namespace perideal
     mesh->triangulation.copy_triangulation(coarse.triangulation);
     coarse.triangulation.clear();
     mesh->triangulation.refine_global(parameters.refinements);
-    mesh->description = coarse.origin + ", " + with_commas(mesh->triangulation.n_global_active_cells())
-                        + (dim == 2 ? " quads" : " hexes");
+    mesh->description = coarse.origin + ", " + with_commas(mesh->triangulation.n_global_active_cells()) +
+                        (dim == 2 ? " quads" : " hexes");
     return mesh;
   }
 
   template <int dim>
-  void
-  copy_refined(const Mesh<dim> &mesh, const unsigned int further_refinements,
-               dealii::Triangulation<dim> &copy)
+  void copy_refined(const Mesh<dim>            &mesh,
+                    const unsigned int          further_refinements,
+                    dealii::Triangulation<dim> &copy)
   {
     const auto [vertices, cells, groups] = dealii::GridTools::get_coarse_mesh_description(mesh.triangulation);
     copy.create_triangulation(vertices, cells, groups);

@@ -15,65 +15,62 @@ namespace perideal
 
     /// The list of generators.
     template <int dim>
-    const Registry<Generator<dim>> &
-    generators()
+    const Registry<Generator<dim>> &generators()
     {
       static const Registry<Generator<dim>> registry(
-          "Mesh/Generator",
-          { { "box", &generate_box<dim> }, { "plate with hole", &generate_plate_with_hole<dim> } });
+        "Mesh/Generator", {{"box", &generate_box<dim>}, {"plate with hole", &generate_plate_with_hole<dim>}});
       return registry;
     }
 
     /// Every rank holds the coarse mesh, at about 1 kB a cell.
     constexpr double max_coarse_cells = 2e7;
 
-    void
-    check_number(const std::size_t given, const std::size_t wanted, const std::string &parameter,
-                 const std::string &meaning)
+    void check_number(const std::size_t  given,
+                      const std::size_t  wanted,
+                      const std::string &parameter,
+                      const std::string &meaning)
     {
       if (given != wanted)
-        throw InputError("the generator takes " + std::to_string(wanted)
-                         + (wanted == 1 ? " number" : " numbers") + " here, not " + std::to_string(given))
-            .parameter(parameter)
-            .allowed(meaning);
+        throw InputError("the generator takes " + std::to_string(wanted) +
+                         (wanted == 1 ? " number" : " numbers") + " here, not " + std::to_string(given))
+          .parameter(parameter)
+          .allowed(meaning);
     }
   } // namespace
 
-  std::vector<std::string>
-  generator_names()
+  std::vector<std::string> generator_names()
   {
     return generators<2>().names();
   }
 
   template <int dim>
-  void
-  generate_mesh(const MeshParameters &parameters, CoarseMesh<dim> &mesh)
+  void generate_mesh(const MeshParameters &parameters, CoarseMesh<dim> &mesh)
   {
     generators<dim>().get(parameters.generator)(parameters, mesh);
     mesh.origin = parameters.generator;
   }
 
-  std::vector<unsigned int>
-  cell_counts(const MeshParameters &parameters, const std::vector<unsigned int> &defaults,
-              const std::string &meaning)
+  std::vector<unsigned int> cell_counts(const MeshParameters            &parameters,
+                                        const std::vector<unsigned int> &defaults,
+                                        const std::string               &meaning)
   {
     if (parameters.cells.empty())
       return defaults;
     check_number(parameters.cells.size(), defaults.size(), "Mesh/Cells", meaning);
     double product = 1;
     for (const unsigned int count : parameters.cells)
-    {
-      if (count == 0)
-        throw InputError("a body has at least one cell along each direction")
+      {
+        if (count == 0)
+          throw InputError("a body has at least one cell along each direction")
             .parameter("Mesh/Cells")
             .allowed(meaning);
-      product *= count;
-    }
+        product *= count;
+      }
     if (product > max_coarse_cells)
       throw InputError("too many cells for a mesh that every rank holds before refinement")
-          .parameter("Mesh/Cells")
-          .allowed("a product of at most 20,000,000")
-          .hint("halve the counts and raise Mesh/Refinements, whose cells are distributed");
+        .parameter("Mesh/Cells")
+        .allowed("a product of at most 20,000,000")
+        .hint("halve the counts and raise Mesh/Refinements, whose cells are distributed");
     return parameters.cells;
   }
 
@@ -89,24 +86,23 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  generate_box(const MeshParameters &parameters, CoarseMesh<dim> &mesh)
+  void generate_box(const MeshParameters &parameters, CoarseMesh<dim> &mesh)
   {
     const std::string               directions = dim == 2 ? "along x, y" : "along x, y, z";
-    const std::vector<unsigned int> counts
-        = cell_counts(parameters, std::vector<unsigned int>(dim, 10), "counts " + directions);
-    const std::vector<double> size
-        = lengths(parameters, std::vector<double>(dim, 1.), "lengths " + directions + " [m], > 0");
+    const std::vector<unsigned int> counts =
+      cell_counts(parameters, std::vector<unsigned int>(dim, 10), "counts " + directions);
+    const std::vector<double> size =
+      lengths(parameters, std::vector<double>(dim, 1.), "lengths " + directions + " [m], > 0");
 
     dealii::Point<dim> upper;
     for (unsigned int d = 0; d < dim; ++d)
       upper[d] = size[d];
     // colorized: boundary ids in the order x min, x max, y min, ...
-    dealii::GridGenerator::subdivided_hyper_rectangle(mesh.triangulation, counts, dealii::Point<dim>(), upper,
-                                                      true);
-    mesh.boundary_names = { { "left", 0 }, { "right", 1 }, { "bottom", 2 }, { "top", 3 } };
+    dealii::GridGenerator::subdivided_hyper_rectangle(
+      mesh.triangulation, counts, dealii::Point<dim>(), upper, true);
+    mesh.boundary_names = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}};
     if (dim == 3)
-      mesh.boundary_names.insert({ { "back", 4 }, { "front", 5 } });
+      mesh.boundary_names.insert({{"back", 4}, {"front", 5}});
   }
 
   template void generate_mesh(const MeshParameters &, CoarseMesh<2> &);

@@ -4,28 +4,26 @@
 
 namespace perideal
 {
-  bool
-  GmshLines::next()
+  bool GmshLines::next()
   {
     while (position < text.size())
-    {
-      const std::size_t end = std::min(text.find('\n', position), text.size());
-      current               = std::string_view(text).substr(position, end - position);
-      position              = end + 1;
-      ++number;
-
-      const std::size_t first = current.find_first_not_of(" \t\r");
-      if (first != std::string_view::npos)
       {
-        current = current.substr(first, current.find_last_not_of(" \t\r") - first + 1);
-        return true;
+        const std::size_t end = std::min(text.find('\n', position), text.size());
+        current               = std::string_view(text).substr(position, end - position);
+        position              = end + 1;
+        ++number;
+
+        const std::size_t first = current.find_first_not_of(" \t\r");
+        if (first != std::string_view::npos)
+          {
+            current = current.substr(first, current.find_last_not_of(" \t\r") - first + 1);
+            return true;
+          }
       }
-    }
     return false;
   }
 
-  std::string_view
-  GmshLines::entry(const std::string &section)
+  std::string_view GmshLines::entry(const std::string &section)
   {
     if (!next())
       fail_truncated(section);
@@ -34,8 +32,7 @@ namespace perideal
     return current;
   }
 
-  void
-  GmshLines::expect_end(const std::string &section)
+  void GmshLines::expect_end(const std::string &section)
   {
     if (!next())
       fail_truncated(section);
@@ -43,8 +40,7 @@ namespace perideal
       fail("expected the end of the section $" + section + ", which holds more than it announces");
   }
 
-  void
-  GmshLines::skip_section()
+  void GmshLines::skip_section()
   {
     const std::string section(current.substr(1));
     while (next())
@@ -53,24 +49,21 @@ namespace perideal
     fail_truncated(section);
   }
 
-  void
-  GmshLines::fail(const std::string &problem, const std::string &advice) const
+  void GmshLines::fail(const std::string &problem, const std::string &advice) const
   {
     throw InputError(problem)
-        .location(filename + ":" + std::to_string(number))
-        .parameter("Mesh/File")
-        .hint(advice);
+      .location(filename + ":" + std::to_string(number))
+      .parameter("Mesh/File")
+      .hint(advice);
   }
 
-  void
-  GmshLines::fail_at_entry(const std::string &section) const
+  void GmshLines::fail_at_entry(const std::string &section) const
   {
-    fail("cannot read this entry of the section $" + section + ": '" + std::string(current.substr(0, 60))
-         + "'");
+    fail("cannot read this entry of the section $" + section + ": '" + std::string(current.substr(0, 60)) +
+         "'");
   }
 
-  void
-  GmshLines::fail_truncated(const std::string &section) const
+  void GmshLines::fail_truncated(const std::string &section) const
   {
     fail("the file is truncated: it ends inside the section $" + section, "save the mesh again");
   }

@@ -19,8 +19,8 @@ namespace perideal
     {
     public:
       Scan(const std::string &text, const std::string &filename, const int dim)
-          : lines(text, filename)
-          , dim(dim)
+        : lines(text, filename)
+        , dim(dim)
       {
       }
 
@@ -55,8 +55,7 @@ namespace perideal
       GmshContents contents;
     };
 
-    void
-    Scan::read_format()
+    void Scan::read_format()
     {
       if (!lines.next())
         lines.fail("the mesh file is empty");
@@ -76,78 +75,74 @@ namespace perideal
       lines.expect_end("MeshFormat");
     }
 
-    void
-    Scan::read_physical_names()
+    void Scan::read_physical_names()
     {
       std::uint64_t count = 0;
       lines.read("PhysicalNames", count);
       for (std::uint64_t i = 0; i < count; ++i)
-      {
-        int dimension = -1, tag = 0;
-        lines.read("PhysicalNames", dimension, tag);
-        const std::size_t first = lines.line().find('"'), last = lines.line().rfind('"');
-        if (first == last)
-          lines.fail("a physical name must stand in quotes");
-        const std::string name(lines.line().substr(first + 1, last - first - 1));
-        if (dimension == dim)
-          contents.cell_groups[name] = tag;
-        else if (dimension == dim - 1)
-          contents.face_groups[name] = tag;
-      }
+        {
+          int dimension = -1, tag = 0;
+          lines.read("PhysicalNames", dimension, tag);
+          const std::size_t first = lines.line().find('"'), last = lines.line().rfind('"');
+          if (first == last)
+            lines.fail("a physical name must stand in quotes");
+          const std::string name(lines.line().substr(first + 1, last - first - 1));
+          if (dimension == dim)
+            contents.cell_groups[name] = tag;
+          else if (dimension == dim - 1)
+            contents.face_groups[name] = tag;
+        }
       lines.expect_end("PhysicalNames");
     }
 
     /// Format 4.1: geometric entities and the physical group of each. deal.II
     /// reads negative tags as huge ones and stops at a second tag.
-    void
-    Scan::read_entities()
+    void Scan::read_entities()
     {
       std::array<std::uint64_t, 4> counts = {};
       lines.read("Entities", counts[0], counts[1], counts[2], counts[3]);
       for (int d = 0; d < 4; ++d)
         for (std::uint64_t i = 0; i < counts[d]; ++i)
-        {
-          GmshFields fields(lines.entry("Entities"));
-          // a point is described by its position, the others by a bounding box
-          const int n_coordinates = d == 0 ? 3 : 6;
-          double    coordinate    = 0;
-          int       entity = 0, n_tags = 0, tag = 0;
-          bool      understood = fields.read(entity);
-          for (int c = 0; c < n_coordinates; ++c)
-            understood = understood && fields.read(coordinate);
-          if (!(understood && fields.read(n_tags) && (n_tags == 0 || fields.read(tag))))
-            lines.fail_at_entry("Entities");
-          static const std::array<std::string, 4> kinds = { { "point ", "curve ", "surface ", "volume " } };
-          if (n_tags > 1)
-            lines.fail(kinds[d] + std::to_string(entity) + " is in more than one physical group",
-                       "put every point, curve, surface and volume into one physical group at most");
-          if (tag < 0)
-            lines.fail(kinds[d] + std::to_string(entity) + " has a negative physical tag",
-                       "name it without a minus sign in its physical group");
-          tag_of_entity[d][entity] = tag;
-        }
+          {
+            GmshFields fields(lines.entry("Entities"));
+            // a point is described by its position, the others by a bounding box
+            const int n_coordinates = d == 0 ? 3 : 6;
+            double    coordinate    = 0;
+            int       entity = 0, n_tags = 0, tag = 0;
+            bool      understood = fields.read(entity);
+            for (int c = 0; c < n_coordinates; ++c)
+              understood = understood && fields.read(coordinate);
+            if (!(understood && fields.read(n_tags) && (n_tags == 0 || fields.read(tag))))
+              lines.fail_at_entry("Entities");
+            static const std::array<std::string, 4> kinds = {{"point ", "curve ", "surface ", "volume "}};
+            if (n_tags > 1)
+              lines.fail(kinds[d] + std::to_string(entity) + " is in more than one physical group",
+                         "put every point, curve, surface and volume into one physical group at most");
+            if (tag < 0)
+              lines.fail(kinds[d] + std::to_string(entity) + " has a negative physical tag",
+                         "name it without a minus sign in its physical group");
+            tag_of_entity[d][entity] = tag;
+          }
       lines.expect_end("Entities");
     }
 
-    void
-    Scan::read_node()
+    void Scan::read_node()
     {
       GmshFields    fields(lines.entry("Nodes"));
       std::uint64_t number     = 0;
       bool          understood = is_version_4 || fields.read(number);
       for (int d = 0; d < 3; ++d)
-      {
-        double x   = 0;
-        understood = understood && fields.read(x) && std::isfinite(x);
-        lower[d]   = std::min(lower[d], x);
-        upper[d]   = std::max(upper[d], x);
-      }
+        {
+          double x   = 0;
+          understood = understood && fields.read(x) && std::isfinite(x);
+          lower[d]   = std::min(lower[d], x);
+          upper[d]   = std::max(upper[d], x);
+        }
       if (!understood)
         lines.fail_at_entry("Nodes");
     }
 
-    void
-    Scan::read_nodes()
+    void Scan::read_nodes()
     {
       lower.fill(std::numeric_limits<double>::max());
       upper.fill(std::numeric_limits<double>::lowest());
@@ -157,17 +152,17 @@ namespace perideal
       else
         lines.read("Nodes", count);
       for (std::uint64_t block = 0; block < n_blocks; ++block)
-      {
-        if (is_version_4)
         {
-          int dimension = 0, entity = 0, parametric = 0;
-          lines.read("Nodes", dimension, entity, parametric, count);
+          if (is_version_4)
+            {
+              int dimension = 0, entity = 0, parametric = 0;
+              lines.read("Nodes", dimension, entity, parametric, count);
+              for (std::uint64_t i = 0; i < count; ++i)
+                lines.entry("Nodes");
+            }
           for (std::uint64_t i = 0; i < count; ++i)
-            lines.entry("Nodes");
+            read_node();
         }
-        for (std::uint64_t i = 0; i < count; ++i)
-          read_node();
-      }
       lines.expect_end("Nodes");
       has_nodes = true;
     }
@@ -177,24 +172,23 @@ namespace perideal
     {
       if (!unsupported.empty())
         return;
-      const std::string kind
-          = type == nullptr ? "an element of Gmsh type " + std::to_string(type_number) : "a " + type->name;
-      unsupported = "element " + std::to_string(number) + " is " + kind + "; the mesh must consist of "
-                    + (dim == 2 ? "quadrilaterals" : "hexahedra") + " with nodes at their corners only";
+      const std::string kind =
+        type == nullptr ? "an element of Gmsh type " + std::to_string(type_number) : "a " + type->name;
+      unsupported = "element " + std::to_string(number) + " is " + kind + "; the mesh must consist of " +
+                    (dim == 2 ? "quadrilaterals" : "hexahedra") + " with nodes at their corners only";
       advice = advice_against(type, dim);
     }
 
-    void
-    Scan::add_element(GmshFields &fields, const std::uint64_t number, const int type, const int tag)
+    void Scan::add_element(GmshFields &fields, const std::uint64_t number, const int type, const int tag)
     {
       const GmshElementType *element = gmsh_element_type(type);
       if (element != nullptr)
         ++n_elements[element->dimension];
       if (element == nullptr || !element->supported)
-      {
-        note_unsupported(element, type, number);
-        return;
-      }
+        {
+          note_unsupported(element, type, number);
+          return;
+        }
       // of the supported types, hexahedra have most nodes
       std::array<std::uint64_t, 8> nodes;
       const auto                   end  = nodes.begin() + element->n_nodes;
@@ -202,15 +196,17 @@ namespace perideal
       for (auto node = nodes.begin(); node != end; ++node)
         fits = fits && fields.read(*node);
       if (!fits || !fields.at_end())
-        lines.fail("element " + std::to_string(number) + ", a " + element->name + ", must have "
-                   + std::to_string(element->n_nodes) + " node numbers");
-      const auto occurs_before = [&](const auto node) { return std::find(nodes.begin(), node, *node) != node; };
-      bool       is_collapsed  = false;
+        lines.fail("element " + std::to_string(number) + ", a " + element->name + ", must have " +
+                   std::to_string(element->n_nodes) + " node numbers");
+      const auto occurs_before = [&](const auto node) {
+        return std::find(nodes.begin(), node, *node) != node;
+      };
+      bool is_collapsed = false;
       for (auto node = nodes.begin(); node != end; ++node)
         is_collapsed = is_collapsed || occurs_before(node);
       if (is_collapsed)
-        lines.fail("element " + std::to_string(number) + ", a " + element->name
-                   + ", is collapsed: it has one node at two of its corners");
+        lines.fail("element " + std::to_string(number) + ", a " + element->name +
+                   ", is collapsed: it has one node at two of its corners");
       if (element->dimension == dim)
         contents.cell_numbers.push_back(number);
       else if (element->dimension == dim - 1)
@@ -218,57 +214,54 @@ namespace perideal
       n_quadrilaterals += element->name == "quadrilateral" ? 1 : 0;
     }
 
-    void
-    Scan::read_elements_2()
+    void Scan::read_elements_2()
     {
       std::uint64_t count = 0;
       lines.read("Elements", count);
       for (std::uint64_t i = 0; i < count; ++i)
-      {
-        GmshFields    fields(lines.entry("Elements"));
-        std::uint64_t number = 0;
-        int           type = 0, n_tags = 0, tag = 0, other_tag = 0;
-        bool          understood = fields.read(number) && fields.read(type) && fields.read(n_tags);
-        for (int t = 0; understood && t < n_tags; ++t)
-          understood = fields.read(t == 0 ? tag : other_tag);
-        if (!understood)
-          lines.fail_at_entry("Elements");
-        if (tag < 0)
-          lines.fail("element " + std::to_string(number) + " has a negative physical tag",
-                     "number physical groups from 1");
-        add_element(fields, number, type, tag);
-      }
+        {
+          GmshFields    fields(lines.entry("Elements"));
+          std::uint64_t number = 0;
+          int           type = 0, n_tags = 0, tag = 0, other_tag = 0;
+          bool          understood = fields.read(number) && fields.read(type) && fields.read(n_tags);
+          for (int t = 0; understood && t < n_tags; ++t)
+            understood = fields.read(t == 0 ? tag : other_tag);
+          if (!understood)
+            lines.fail_at_entry("Elements");
+          if (tag < 0)
+            lines.fail("element " + std::to_string(number) + " has a negative physical tag",
+                       "number physical groups from 1");
+          add_element(fields, number, type, tag);
+        }
       lines.expect_end("Elements");
     }
 
-    void
-    Scan::read_elements_4()
+    void Scan::read_elements_4()
     {
       std::uint64_t n_blocks = 0;
       lines.read("Elements", n_blocks);
       for (std::uint64_t block = 0; block < n_blocks; ++block)
-      {
-        int           dimension = 0, entity = 0, type = 0;
-        std::uint64_t count = 0;
-        lines.read("Elements", dimension, entity, type, count);
-        if (dimension < 0 || dimension > 3)
-          lines.fail_at_entry("Elements");
-        const auto found = tag_of_entity[dimension].find(entity);
-        const int  tag   = found == tag_of_entity[dimension].end() ? 0 : found->second;
-        for (std::uint64_t i = 0; i < count; ++i)
         {
-          GmshFields    fields(lines.entry("Elements"));
-          std::uint64_t number = 0;
-          if (!fields.read(number))
+          int           dimension = 0, entity = 0, type = 0;
+          std::uint64_t count = 0;
+          lines.read("Elements", dimension, entity, type, count);
+          if (dimension < 0 || dimension > 3)
             lines.fail_at_entry("Elements");
-          add_element(fields, number, type, tag);
+          const auto found = tag_of_entity[dimension].find(entity);
+          const int  tag   = found == tag_of_entity[dimension].end() ? 0 : found->second;
+          for (std::uint64_t i = 0; i < count; ++i)
+            {
+              GmshFields    fields(lines.entry("Elements"));
+              std::uint64_t number = 0;
+              if (!fields.read(number))
+                lines.fail_at_entry("Elements");
+              add_element(fields, number, type, tag);
+            }
         }
-      }
       lines.expect_end("Elements");
     }
 
-    void
-    Scan::check_elements() const
+    void Scan::check_elements() const
     {
       if (!has_nodes || !has_elements)
         lines.fail(std::string("the file has no section $") + (has_nodes ? "Elements" : "Nodes"));
@@ -287,38 +280,36 @@ namespace perideal
         lines.fail("the mesh is not planar: its nodes differ in z", "draw 2-D bodies in the x-y plane");
     }
 
-    GmshContents
-    Scan::run()
+    GmshContents Scan::run()
     {
       read_format();
       while (lines.next())
-      {
-        if (lines.line() == "$PhysicalNames")
-          read_physical_names();
-        else if (lines.line() == "$Entities")
-          read_entities();
-        else if (lines.line() == "$PartitionedEntities")
-          lines.fail("the mesh is partitioned", "save it in one part: Mesh.NbPartitions = 0;");
-        else if (lines.line() == "$Nodes")
-          read_nodes();
-        else if (lines.line() == "$Elements")
         {
-          is_version_4 ? read_elements_4() : read_elements_2();
-          has_elements = true;
+          if (lines.line() == "$PhysicalNames")
+            read_physical_names();
+          else if (lines.line() == "$Entities")
+            read_entities();
+          else if (lines.line() == "$PartitionedEntities")
+            lines.fail("the mesh is partitioned", "save it in one part: Mesh.NbPartitions = 0;");
+          else if (lines.line() == "$Nodes")
+            read_nodes();
+          else if (lines.line() == "$Elements")
+            {
+              is_version_4 ? read_elements_4() : read_elements_2();
+              has_elements = true;
+            }
+          else if (lines.line().front() == '$')
+            lines.skip_section();
+          else
+            lines.fail("expected the beginning of a section, not '" +
+                       std::string(lines.line().substr(0, 60)) + "'");
         }
-        else if (lines.line().front() == '$')
-          lines.skip_section();
-        else
-          lines.fail("expected the beginning of a section, not '" + std::string(lines.line().substr(0, 60))
-                     + "'");
-      }
       check_elements();
       return std::move(contents);
     }
   } // namespace
 
-  GmshContents
-  scan_gmsh(const std::string &text, const std::string &filename, const int dim)
+  GmshContents scan_gmsh(const std::string &text, const std::string &filename, const int dim)
   {
     return Scan(text, filename, dim).run();
   }

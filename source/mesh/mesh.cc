@@ -9,8 +9,7 @@ namespace perideal
   namespace
   {
     template <typename Id>
-    std::string
-    name_of(const std::map<std::string, Id> &names, const Id id)
+    std::string name_of(const std::map<std::string, Id> &names, const Id id)
     {
       for (const auto &entry : names)
         if (entry.second == id)
@@ -20,9 +19,11 @@ namespace perideal
 
     /// Looks a name or number up among the groups of one kind.
     template <typename Id>
-    Id
-    find_id(const std::string &name_or_id, const std::string &kind, const std::map<std::string, Id> &names,
-            const std::set<Id> &ids, const std::string &parameter)
+    Id find_id(const std::string               &name_or_id,
+               const std::string               &kind,
+               const std::map<std::string, Id> &names,
+               const std::set<Id>              &ids,
+               const std::string               &parameter)
     {
       const auto named = names.find(name_or_id);
       if (named != names.end())
@@ -38,36 +39,35 @@ namespace perideal
       for (const Id id : ids)
         choices.push_back(name_of(names, id));
       throw InputError("the mesh has no " + kind + " of this name or number")
-          .parameter(parameter)
-          .given(name_or_id)
-          .allowed(join_choices(choices))
-          .nearest(nearest_name(name_or_id, choices));
+        .parameter(parameter)
+        .given(name_or_id)
+        .allowed(join_choices(choices))
+        .nearest(nearest_name(name_or_id, choices));
     }
   } // namespace
 
   template <int dim>
   Mesh<dim>::Mesh(MPI_Comm communicator)
-      : triangulation(communicator, dealii::Triangulation<dim>::none)
+    : triangulation(communicator, dealii::Triangulation<dim>::none)
   {
   }
 
   template <int dim>
-  dealii::types::boundary_id
-  Mesh<dim>::boundary_id(const std::string &name_or_id, const std::string &parameter) const
+  dealii::types::boundary_id Mesh<dim>::boundary_id(const std::string &name_or_id,
+                                                    const std::string &parameter) const
   {
     return find_id(name_or_id, "boundary", boundary_names, boundary_ids, parameter);
   }
 
   template <int dim>
-  dealii::types::material_id
-  Mesh<dim>::material_id(const std::string &name_or_id, const std::string &parameter) const
+  dealii::types::material_id Mesh<dim>::material_id(const std::string &name_or_id,
+                                                    const std::string &parameter) const
   {
     return find_id(name_or_id, "group of cells", material_names, material_ids, parameter);
   }
 
   template <int dim>
-  std::string
-  Mesh<dim>::boundary_name(const dealii::types::boundary_id id) const
+  std::string Mesh<dim>::boundary_name(const dealii::types::boundary_id id) const
   {
     return name_of(boundary_names, id);
   }

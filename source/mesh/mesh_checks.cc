@@ -20,8 +20,7 @@ namespace perideal
     constexpr double flat_corner = 1e-6;
 
     template <int dim>
-    std::string
-    in_words(const CoarseMesh<dim> &mesh, const Cell<dim> &cell)
+    std::string in_words(const CoarseMesh<dim> &mesh, const Cell<dim> &cell)
     {
       std::ostringstream text;
       if (mesh.element_numbers.empty())
@@ -33,12 +32,11 @@ namespace perideal
     }
 
     template <int dim>
-    InputError
-    error(const CoarseMesh<dim> &mesh, const std::string &problem)
+    InputError error(const CoarseMesh<dim> &mesh, const std::string &problem)
     {
       return InputError(problem)
-          .location(mesh.origin)
-          .parameter(mesh.element_numbers.empty() ? "Mesh/Generator" : "Mesh/File");
+        .location(mesh.origin)
+        .parameter(mesh.element_numbers.empty() ? "Mesh/Generator" : "Mesh/File");
     }
 
     /// Two points closer than this share of the cell's size coincide.
@@ -50,53 +48,51 @@ namespace perideal
     /// Determinant of the edges that leave a corner, each of unit length, in
     /// the order of the cell's coordinate directions. No edge has zero length.
     template <int dim>
-    double
-    scaled_jacobian(const Corners<dim> &x, const unsigned int corner)
+    double scaled_jacobian(const Corners<dim> &x, const unsigned int corner)
     {
       dealii::Tensor<2, dim> edges;
       for (unsigned int d = 0; d < dim; ++d)
-      {
-        // vertices are numbered lexicographically: bit d is the coordinate
-        const unsigned int           bit  = 1u << d;
-        const dealii::Tensor<1, dim> edge = x[corner | bit] - x[corner & ~bit];
-        edges[d]                          = edge / edge.norm();
-      }
+        {
+          // vertices are numbered lexicographically: bit d is the coordinate
+          const unsigned int           bit  = 1u << d;
+          const dealii::Tensor<1, dim> edge = x[corner | bit] - x[corner & ~bit];
+          edges[d]                          = edge / edge.norm();
+        }
       return determinant(edges);
     }
 
     /// What is wrong with the shape of a cell, or an empty string.
     template <int dim>
-    std::string
-    shape_defect(const Cell<dim> &cell)
+    std::string shape_defect(const Cell<dim> &cell)
     {
       Corners<dim> x;
       double       size_square = 0;
       for (const unsigned int v : cell->vertex_indices())
-      {
-        x[v]        = cell->vertex(v);
-        size_square = std::max(size_square, x[v].distance_square(x[0]));
-      }
+        {
+          x[v]        = cell->vertex(v);
+          size_square = std::max(size_square, x[v].distance_square(x[0]));
+        }
       for (const unsigned int v : cell->vertex_indices())
         for (unsigned int w = 0; w < v; ++w)
           if (!(x[v].distance_square(x[w]) > coincident * coincident * size_square))
-          {
-            std::ostringstream text;
-            text << "is collapsed: two of its corners coincide at (" << x[v] << ")";
-            return text.str();
-          }
+            {
+              std::ostringstream text;
+              text << "is collapsed: two of its corners coincide at (" << x[v] << ")";
+              return text.str();
+            }
 
       unsigned int n_flat = 0;
       std::string  corners;
       for (const unsigned int v : cell->vertex_indices())
-      {
-        const double jacobian = scaled_jacobian<dim>(x, v);
-        if (jacobian > flat_corner)
-          continue;
-        n_flat += jacobian >= -flat_corner ? 1 : 0;
-        std::ostringstream text;
-        text << (corners.empty() ? "(" : ", (") << x[v] << ")";
-        corners += text.str();
-      }
+        {
+          const double jacobian = scaled_jacobian<dim>(x, v);
+          if (jacobian > flat_corner)
+            continue;
+          n_flat += jacobian >= -flat_corner ? 1 : 0;
+          std::ostringstream text;
+          text << (corners.empty() ? "(" : ", (") << x[v] << ")";
+          corners += text.str();
+        }
       if (corners.empty())
         return "";
       if (n_flat == x.size())
@@ -105,29 +101,27 @@ namespace perideal
     }
 
     template <int dim>
-    void
-    check_shapes(const CoarseMesh<dim> &mesh)
+    void check_shapes(const CoarseMesh<dim> &mesh)
     {
       unsigned int n_bad = 0;
       std::string  first;
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      {
-        const std::string defect = shape_defect<dim>(cell);
-        if (!defect.empty() && n_bad++ == 0)
-          first = in_words<dim>(mesh, cell) + " " + defect;
-      }
+        {
+          const std::string defect = shape_defect<dim>(cell);
+          if (!defect.empty() && n_bad++ == 0)
+            first = in_words<dim>(mesh, cell) + " " + defect;
+        }
       if (n_bad > 1)
         first += " (and " + std::to_string(n_bad - 1) + " more)";
       if (n_bad > 0)
         throw error(mesh, first)
-            .hint("look at the element in Gmsh (Tools, Visibility) and mend the geometry or the mesh sizes "
-                  "there");
+          .hint("look at the element in Gmsh (Tools, Visibility) and mend the geometry or the mesh sizes "
+                "there");
     }
 
     /// A normal of a face at its centre: the tangent turned, or the product of the diagonals.
     template <int dim>
-    dealii::Tensor<1, dim>
-    face_normal(const Cell<dim> &cell, const unsigned int f)
+    dealii::Tensor<1, dim> face_normal(const Cell<dim> &cell, const unsigned int f)
     {
       const auto face = cell->face(f);
       if constexpr (dim == 2)
@@ -139,36 +133,34 @@ namespace perideal
     /// Two cells at a face must be each other's only neighbours there, on either
     /// side of it. deal.II takes a third cell at a face in silence.
     template <int dim>
-    void
-    check_neighbours(const CoarseMesh<dim> &mesh)
+    void check_neighbours(const CoarseMesh<dim> &mesh)
     {
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
         for (const unsigned int f : cell->face_indices())
           if (!cell->at_boundary(f))
-          {
-            const auto neighbour = cell->neighbor(f);
-            bool       is_mutual = false;
-            for (const unsigned int g : neighbour->face_indices())
-              is_mutual
-                  = is_mutual
-                    || (neighbour->face(g) == cell->face(f) && neighbour->neighbor_index(g) == cell->index());
-            const dealii::Tensor<1, dim> normal = face_normal<dim>(cell, f);
-            const dealii::Point<dim>     centre = cell->face(f)->center();
-            const bool                   opposite
-                = (normal * (cell->center() - centre)) * (normal * (neighbour->center() - centre)) < 0;
-            if (!is_mutual || !opposite)
-              throw error(mesh, in_words<dim>(mesh, cell) + " and " + in_words<dim>(mesh, neighbour)
-                                    + " lie on one another: a face separates two cells at most")
+            {
+              const auto neighbour = cell->neighbor(f);
+              bool       is_mutual = false;
+              for (const unsigned int g : neighbour->face_indices())
+                is_mutual = is_mutual || (neighbour->face(g) == cell->face(f) &&
+                                          neighbour->neighbor_index(g) == cell->index());
+              const dealii::Tensor<1, dim> normal = face_normal<dim>(cell, f);
+              const dealii::Point<dim>     centre = cell->face(f)->center();
+              const bool                   opposite =
+                (normal * (cell->center() - centre)) * (normal * (neighbour->center() - centre)) < 0;
+              if (!is_mutual || !opposite)
+                throw error(mesh,
+                            in_words<dim>(mesh, cell) + " and " + in_words<dim>(mesh, neighbour) +
+                              " lie on one another: a face separates two cells at most")
                   .hint("is a surface (in 3-D a volume) in two physical groups, or drawn twice? "
                         "Coherence; in the .geo file unites duplicates");
-          }
+            }
     }
 
     /// Every face that the file puts into a boundary group must have arrived;
     /// deal.II drops those that are no side of a cell, or are in two groups.
     template <int dim>
-    void
-    check_boundary_groups(const CoarseMesh<dim> &mesh)
+    void check_boundary_groups(const CoarseMesh<dim> &mesh)
     {
       std::map<dealii::types::boundary_id, std::uint64_t> n_faces;
       for (const auto &face : mesh.triangulation.active_face_iterators())
@@ -176,23 +168,23 @@ namespace perideal
           ++n_faces[face->boundary_id()];
       for (const auto &group : mesh.faces_in_file)
         if (n_faces[group.first] != group.second)
-        {
-          std::string name = std::to_string(group.first);
-          for (const auto &named : mesh.boundary_names)
-            if (named.second == group.first)
-              name = named.first;
-          throw error(mesh, "the boundary group " + name + " has " + std::to_string(group.second)
-                                + " faces in the file, of which " + std::to_string(n_faces[group.first])
-                                + " are sides of cells on the surface and in no other group")
+          {
+            std::string name = std::to_string(group.first);
+            for (const auto &named : mesh.boundary_names)
+              if (named.second == group.first)
+                name = named.first;
+            throw error(mesh,
+                        "the boundary group " + name + " has " + std::to_string(group.second) +
+                          " faces in the file, of which " + std::to_string(n_faces[group.first]) +
+                          " are sides of cells on the surface and in no other group")
               .hint("put every boundary curve (in 3-D surface) into one physical group, and only those that "
                     "bound the body");
-        }
+          }
     }
   } // namespace
 
   template <int dim>
-  void
-  check_coarse_mesh(const CoarseMesh<dim> &mesh)
+  void check_coarse_mesh(const CoarseMesh<dim> &mesh)
   {
     Assert(mesh.triangulation.all_reference_cells_are_hyper_cube(),
            dealii::ExcMessage("readers and generators make quadrilaterals and hexahedra"));

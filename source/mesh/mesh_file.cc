@@ -15,8 +15,7 @@ namespace perideal
     namespace fs = std::filesystem;
 
     /// Names of the mesh files beside a missing one.
-    std::vector<std::string>
-    mesh_files_in(const fs::path &directory)
+    std::vector<std::string> mesh_files_in(const fs::path &directory)
     {
       std::vector<std::string> names;
       std::error_code          ignored;
@@ -26,13 +25,12 @@ namespace perideal
       return names;
     }
 
-    fs::path
-    find_mesh_file(const std::string &filename, const std::string &scene_directory)
+    fs::path find_mesh_file(const std::string &filename, const std::string &scene_directory)
     {
       const fs::path              path(filename), beside_scene = fs::path(scene_directory) / path;
-      const std::vector<fs::path> candidates = path.is_absolute() || beside_scene == path
-                                                   ? std::vector<fs::path>{ path }
-                                                   : std::vector<fs::path>{ path, beside_scene };
+      const std::vector<fs::path> candidates = path.is_absolute() || beside_scene == path ?
+                                                 std::vector<fs::path>{path} :
+                                                 std::vector<fs::path>{path, beside_scene};
       std::error_code             ignored;
       for (const fs::path &candidate : candidates)
         if (fs::is_regular_file(candidate, ignored))
@@ -40,22 +38,21 @@ namespace perideal
 
       std::vector<std::string> tried, present;
       for (const fs::path &candidate : candidates)
-      {
-        tried.push_back(candidate.string());
-        for (const std::string &name : mesh_files_in(candidate.parent_path()))
-          present.push_back(name);
-      }
+        {
+          tried.push_back(candidate.string());
+          for (const std::string &name : mesh_files_in(candidate.parent_path()))
+            present.push_back(name);
+        }
       throw InputError("there is no such mesh file: " + join_choices(tried))
-          .nearest(nearest_name(path.filename().string(), present));
+        .nearest(nearest_name(path.filename().string(), present));
     }
 
-    MeshFile
-    load(const std::string &filename, const std::string &scene_directory, const int dim)
+    MeshFile load(const std::string &filename, const std::string &scene_directory, const int dim)
     {
       const fs::path    path      = find_mesh_file(filename, scene_directory);
       const std::string extension = path.extension().string();
       if (extension == ".geo")
-        return { path.string(), run_gmsh(path.string(), dim) };
+        return {path.string(), run_gmsh(path.string(), dim)};
       if (extension != ".msh")
         throw InputError("the kind of a mesh file is told by the end of its name").allowed(".msh | .geo");
 
@@ -65,25 +62,26 @@ namespace perideal
       // an empty file leaves the failbit on text, which is no mistake here
       if (!stream)
         throw InputError("cannot read the mesh file " + path.string());
-      return { path.string(), text.str() };
+      return {path.string(), text.str()};
     }
   } // namespace
 
-  MeshFile
-  load_mesh_file(const std::string &filename, const std::string &scene_directory, const int dim,
-                 MPI_Comm communicator)
+  MeshFile load_mesh_file(const std::string &filename,
+                          const std::string &scene_directory,
+                          const int          dim,
+                          MPI_Comm           communicator)
   {
     MeshFile    file;
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       try
-      {
-        file = load(filename, scene_directory, dim);
-      }
+        {
+          file = load(filename, scene_directory, dim);
+        }
       catch (const InputError &error)
-      {
-        problem = error.what();
-      }
+        {
+          problem = error.what();
+        }
     problem = dealii::Utilities::MPI::broadcast(communicator, problem);
     if (!problem.empty())
       throw InputError(problem).parameter("Mesh/File").given(filename);

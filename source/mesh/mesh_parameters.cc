@@ -5,67 +5,75 @@
 
 namespace perideal
 {
-  void
-  MeshParameters::declare(dealii::ParameterHandler &prm)
+  void MeshParameters::declare(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Mesh");
     prm.add_parameter(
-        "File", file,
-        "Gmsh file: .msh (2.2 or 4.1, ASCII; quadrilaterals or hexahedra), or .geo, which is meshed "
-        "by the program gmsh; relative paths start from the working directory, then from the scene's. "
-        "Empty: take the Generator",
-        Anything());
-    prm.add_parameter("Generator", generator,
-                      "Built-in mesh, instead of a File: " + join_choices(generator_names())
-                          + ". Boundaries are named left, right (x), bottom, top (y), back, front (z), hole",
+      "File",
+      file,
+      "Gmsh file: .msh (2.2 or 4.1, ASCII; quadrilaterals or hexahedra), or .geo, which is meshed "
+      "by the program gmsh; relative paths start from the working directory, then from the scene's. "
+      "Empty: take the Generator",
+      Anything());
+    prm.add_parameter("Generator",
+                      generator,
+                      "Built-in mesh, instead of a File: " + join_choices(generator_names()) +
+                        ". Boundaries are named left, right (x), bottom, top (y), back, front (z), hole",
                       Anything());
-    prm.add_parameter("Cells", cells,
+    prm.add_parameter("Cells",
+                      cells,
                       "Cell counts of the generator [-]. box: along x, y(, z), default 10; plate with hole: "
                       "around each of the eight blocks, radially(, layers in z), default 30, 32(, 4)",
                       List(Integer(1, 1000000), 0, 3));
-    prm.add_parameter("Size", size,
+    prm.add_parameter("Size",
+                      size,
                       "Lengths of the generator's body [m]. box: along x, y(, z) from the origin, default 1; "
                       "plate with hole: side(, depth in z), about the origin, default 1(, 0.1)",
                       List(Double(0.), 0, 3));
-    prm.add_parameter("Hole radius", hole_radius,
+    prm.add_parameter("Hole radius",
+                      hole_radius,
                       "Radius of the hole of the generator plate with hole, between 0 and half the side [m]",
                       Double(0.));
-    prm.add_parameter("Grading", grading,
+    prm.add_parameter("Grading",
+                      grading,
                       "Growth of the cell size of the generator plate with hole, from the hole outwards; "
                       "1: equal cells [-]",
                       Double(1e-3, 1e3));
-    prm.add_parameter("Refinements", refinements,
+    prm.add_parameter("Refinements",
+                      refinements,
                       "Uniform refinements; each halves all cells and follows curved boundaries [-]",
                       Integer(0, 15));
-    prm.add_parameter("Thickness", thickness,
-                      "Thickness of a two-dimensional body, > 0; without meaning in 3-D [m]", Double(0.));
+    prm.add_parameter("Thickness",
+                      thickness,
+                      "Thickness of a two-dimensional body, > 0; without meaning in 3-D [m]",
+                      Double(0.));
     prm.add_parameter(
-        "Cylinders", cylinders,
-        "Boundaries of a mesh File that are circles (2-D) or cylinders along z, with their axis "
-        "point x, y [m], so that refinement follows them: \"hole: 0, 0; pin: 1, 0.5\"",
-        Map(Anything(), List(Double(), 2, 2), 0, Map::max_int_value, ";"));
+      "Cylinders",
+      cylinders,
+      "Boundaries of a mesh File that are circles (2-D) or cylinders along z, with their axis "
+      "point x, y [m], so that refinement follows them: \"hole: 0, 0; pin: 1, 0.5\"",
+      Map(Anything(), List(Double(), 2, 2), 0, Map::max_int_value, ";"));
     prm.leave_subsection();
   }
 
-  void
-  MeshParameters::check() const
+  void MeshParameters::check() const
   {
     if (file.empty() && generator.empty())
       throw InputError("the scene has no mesh: give Mesh/File or Mesh/Generator")
-          .parameter("Mesh/Generator")
-          .allowed(join_choices(generator_names()));
+        .parameter("Mesh/Generator")
+        .allowed(join_choices(generator_names()));
     if (!file.empty() && !generator.empty())
       throw InputError("the scene has two meshes: give either Mesh/File or Mesh/Generator")
-          .parameter("Mesh/File")
-          .given("File = " + file + " and Generator = " + generator)
-          .hint("empty the one that is not meant: set Generator =");
+        .parameter("Mesh/File")
+        .given("File = " + file + " and Generator = " + generator)
+        .hint("empty the one that is not meant: set Generator =");
     if (!(thickness > 0))
       throw InputError("the thickness must be positive")
-          .parameter("Mesh/Thickness")
-          .allowed("a number > 0 [m]");
+        .parameter("Mesh/Thickness")
+        .allowed("a number > 0 [m]");
     if (!generator.empty() && !cylinders.empty())
       throw InputError("Cylinders belong to a mesh File; generators know their curved boundaries")
-          .parameter("Mesh/Cylinders");
+        .parameter("Mesh/Cylinders");
   }
 } // namespace perideal

@@ -12,8 +12,7 @@ namespace perideal
   namespace
   {
     /// deal.II's message on one line, without its decoration.
-    std::string
-    message_of(const dealii::ExceptionBase &exception)
+    std::string message_of(const dealii::ExceptionBase &exception)
     {
       std::ostringstream text;
       exception.print_info(text);
@@ -26,29 +25,28 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void
-  read_gmsh(const std::string &text, const std::string &filename, CoarseMesh<dim> &mesh)
+  void read_gmsh(const std::string &text, const std::string &filename, CoarseMesh<dim> &mesh)
   {
     GmshContents contents = scan_gmsh(text, filename, dim);
 
     dealii::GridIn<dim> reader(mesh.triangulation);
     std::istringstream  stream(text);
     try
-    {
-      reader.read_msh(stream);
-    }
+      {
+        reader.read_msh(stream);
+      }
     catch (const dealii::ExceptionBase &exception)
-    {
-      const std::string problem     = message_of(exception);
-      const bool        is_interior = problem.find("internal face") != std::string::npos;
-      throw InputError("deal.II cannot make a mesh of this file: " + problem)
+      {
+        const std::string problem     = message_of(exception);
+        const bool        is_interior = problem.find("internal face") != std::string::npos;
+        throw InputError("deal.II cannot make a mesh of this file: " + problem)
           .location(filename)
           .parameter("Mesh/File")
-          .hint(is_interior
-                    ? "keep curves and surfaces inside the body out of physical groups, and put the body "
-                      "into one: without any group, Gmsh saves the inner ones too"
-                    : "");
-    }
+          .hint(is_interior ?
+                  "keep curves and surfaces inside the body out of physical groups, and put the body "
+                  "into one: without any group, Gmsh saves the inner ones too" :
+                  "");
+      }
 
     for (const auto &group : contents.cell_groups)
       mesh.material_names[group.first] = group.second;

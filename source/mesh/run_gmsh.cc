@@ -29,7 +29,7 @@ namespace perideal
         name = (std::filesystem::temp_directory_path() / "perideal-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr)
           throw InputError("cannot make a temporary directory " + name + ": " + std::strerror(errno))
-              .hint("set TMPDIR to a directory that can be written");
+            .hint("set TMPDIR to a directory that can be written");
       }
       ~TemporaryDirectory()
       {
@@ -39,11 +39,7 @@ namespace perideal
       TemporaryDirectory(const TemporaryDirectory &)            = delete;
       TemporaryDirectory &operator=(const TemporaryDirectory &) = delete;
 
-      std::string
-      file(const std::string &base) const
-      {
-        return name + "/" + base;
-      }
+      std::string file(const std::string &base) const { return name + "/" + base; }
 
     private:
       std::string name;
@@ -51,27 +47,25 @@ namespace perideal
 
     /// The environment without what mpirun put there: a gmsh that is linked
     /// with MPI would take itself for a rank of this run.
-    std::vector<char *>
-    environment_without_mpi()
+    std::vector<char *> environment_without_mpi()
     {
       std::vector<char *> variables;
       for (char **variable = environ; *variable != nullptr; ++variable)
-      {
-        const std::string_view text(*variable);
-        bool                   is_from_mpi = false;
-        for (const char *prefix : { "OMPI_", "PMIX_", "PMI_", "HYDI_", "MPIR_" })
-          is_from_mpi = is_from_mpi || text.rfind(prefix, 0) == 0;
-        if (!is_from_mpi)
-          variables.push_back(*variable);
-      }
+        {
+          const std::string_view text(*variable);
+          bool                   is_from_mpi = false;
+          for (const char *prefix : {"OMPI_", "PMIX_", "PMI_", "HYDI_", "MPIR_"})
+            is_from_mpi = is_from_mpi || text.rfind(prefix, 0) == 0;
+          if (!is_from_mpi)
+            variables.push_back(*variable);
+        }
       variables.push_back(nullptr);
       return variables;
     }
 
     /// Runs a program found on PATH, its output in a file. Returns its exit
     /// status, or 128 + signal.
-    int
-    run(std::vector<std::string> arguments, const std::string &log)
+    int run(std::vector<std::string> arguments, const std::string &log)
     {
       std::vector<char *> argv;
       for (std::string &argument : arguments)
@@ -82,15 +76,15 @@ namespace perideal
       posix_spawn_file_actions_t actions;
       posix_spawn_file_actions_init(&actions);
       posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                       0600);
+      posix_spawn_file_actions_addopen(
+        &actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
       pid_t     process = 0;
       const int error   = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), variables.data());
       posix_spawn_file_actions_destroy(&actions);
       if (error != 0)
         throw InputError("cannot run the program " + arguments[0] + ": " + std::strerror(error))
-            .hint("install it (apt-get install gmsh), or mesh the file elsewhere and give the .msh file");
+          .hint("install it (apt-get install gmsh), or mesh the file elsewhere and give the .msh file");
 
       int status = 0;
       while (waitpid(process, &status, 0) == -1 && errno == EINTR)
@@ -98,8 +92,7 @@ namespace perideal
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
 
-    std::string
-    text_of(const std::string &filename)
+    std::string text_of(const std::string &filename)
     {
       std::ifstream      stream(filename, std::ios::binary);
       std::ostringstream text;
@@ -108,37 +101,35 @@ namespace perideal
     }
 
     /// Gmsh's first complaint; those behind it are mostly its consequences.
-    std::string
-    first_error(const std::string &log)
+    std::string first_error(const std::string &log)
     {
       std::istringstream lines(log);
       std::string        line, last;
       while (std::getline(lines, line))
-      {
-        if (line.rfind("Error", 0) == 0)
-          return line.substr(std::min(line.find(':') + 2, line.size()));
-        if (!line.empty())
-          last = line;
-      }
+        {
+          if (line.rfind("Error", 0) == 0)
+            return line.substr(std::min(line.find(':') + 2, line.size()));
+          if (!line.empty())
+            last = line;
+        }
       return last;
     }
   } // namespace
 
-  std::string
-  run_gmsh(const std::string &geo_file, const int dim)
+  std::string run_gmsh(const std::string &geo_file, const int dim)
   {
     const TemporaryDirectory directory;
     const std::string        mesh = directory.file("mesh.msh"), log = directory.file("log");
 
     // Format 2.2, because in 4.1 deal.II misreads groups with reversed curves
     // (negative tags)
-    const int status
-        = run({ "gmsh", geo_file, dim == 2 ? "-2" : "-3", "-format", "msh22", "-o", mesh, "-v", "3" }, log);
+    const int status =
+      run({"gmsh", geo_file, dim == 2 ? "-2" : "-3", "-format", "msh22", "-o", mesh, "-v", "3"}, log);
     const std::string text = text_of(mesh);
     if (status != 0 || text.empty())
-      throw InputError(geo_file + ": gmsh failed (exit status " + std::to_string(status)
-                       + "): " + first_error(text_of(log)))
-          .hint("open the file in gmsh, or run: gmsh " + geo_file + (dim == 2 ? " -2" : " -3"));
+      throw InputError(geo_file + ": gmsh failed (exit status " + std::to_string(status) +
+                       "): " + first_error(text_of(log)))
+        .hint("open the file in gmsh, or run: gmsh " + geo_file + (dim == 2 ? " -2" : " -3"));
     return text;
   }
 } // namespace perideal

@@ -35,7 +35,8 @@ namespace perideal
   BondCursor::BondCursor(const BondList &bonds)
     : bonds(bonds)
     , next(bonds.row.begin(), bonds.row.end() - 1)
-  {}
+  {
+  }
 
   void BondCursor::find(const LocalIndex  i,
                         const LocalIndex *begin,
@@ -74,7 +75,7 @@ namespace perideal
               message.push_back(values[slot]);
           }
 
-    const auto                                inbox = dealii::Utilities::MPI::some_to_some(families.communicator, outbox);
+    const auto inbox = dealii::Utilities::MPI::some_to_some(families.communicator, outbox);
     std::map<unsigned int, const double *> position;
     for (const auto &message : inbox)
       position[message.first] = message.second.data();

@@ -102,7 +102,7 @@ namespace perideal
 
     row.assign(1, 0);
     row.reserve(n_owned_nodes + 1);
-    std::vector<LocalIndex>                                       leaves;
+    std::vector<LocalIndex>                                        leaves;
     std::array<std::vector<LocalIndex>, PointTree<dim>::leaf_size> family;
     for (LocalIndex leaf = 0; leaf < tree.n_leaves(); ++leaf)
       {

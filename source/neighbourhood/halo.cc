@@ -73,12 +73,12 @@ namespace perideal
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           if (chosen[i])
             {
-              const HaloNode<dim> node = {nodes.first_global + i,
-                                          me,
-                                          nodes.position[i],
-                                          nodes.volume[i],
-                                          nodes.horizon[i],
-                                          nodes.material[i]};
+              const HaloNode<dim> node  = {nodes.first_global + i,
+                                           me,
+                                           nodes.position[i],
+                                           nodes.volume[i],
+                                           nodes.horizon[i],
+                                           nodes.material[i]};
               const auto          begin = reinterpret_cast<const char *>(&node);
               message.insert(message.end(), begin, begin + sizeof(node));
             }

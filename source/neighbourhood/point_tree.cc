@@ -39,7 +39,8 @@ namespace perideal
   }
 
   template <int dim>
-  PointTree<dim>::PointTree(const std::vector<dealii::Point<dim>> &position, const std::vector<double> &horizon)
+  PointTree<dim>::PointTree(const std::vector<dealii::Point<dim>> &position,
+                            const std::vector<double>             &horizon)
     : n_points(position.size())
   {
     if (n_points == 0)
@@ -47,8 +48,8 @@ namespace perideal
     levels.emplace_back((n_points + leaf_size - 1) / leaf_size);
     for (LocalIndex leaf = 0; leaf < n_leaves(); ++leaf)
       {
-        const LocalIndex first    = leaf_begin(leaf);
-        levels.front()[leaf]      = {position[first], position[first], horizon[first]};
+        const LocalIndex first = leaf_begin(leaf);
+        levels.front()[leaf]   = {position[first], position[first], horizon[first]};
         for (LocalIndex i = first + 1; i < leaf_end(leaf); ++i)
           levels.front()[leaf].include({position[i], position[i], horizon[i]});
       }

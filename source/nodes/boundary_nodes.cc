@@ -12,20 +12,20 @@ namespace perideal
     std::vector<LocalIndex> result;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned() && cell->at_boundary())
-      {
-        const auto faces   = cell->face_iterators();
-        const bool touches = std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
-          return face->at_boundary() && face->boundary_id() == boundary;
-        });
-        if (touches)
-          result.push_back(nodes.node_of_cell[cell->active_cell_index()]);
-      }
+        {
+          const auto faces   = cell->face_iterators();
+          const bool touches = std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
+            return face->at_boundary() && face->boundary_id() == boundary;
+          });
+          if (touches)
+            result.push_back(nodes.node_of_cell[cell->active_cell_index()]);
+        }
     std::sort(result.begin(), result.end());
     return result;
   }
 
-  template std::vector<LocalIndex> nodes_on_boundary(const Mesh<2> &, const Nodes<2> &,
-                                                     const dealii::types::boundary_id);
-  template std::vector<LocalIndex> nodes_on_boundary(const Mesh<3> &, const Nodes<3> &,
-                                                     const dealii::types::boundary_id);
+  template std::vector<LocalIndex>
+  nodes_on_boundary(const Mesh<2> &, const Nodes<2> &, const dealii::types::boundary_id);
+  template std::vector<LocalIndex>
+  nodes_on_boundary(const Mesh<3> &, const Nodes<3> &, const dealii::types::boundary_id);
 } // namespace perideal

@@ -21,13 +21,16 @@ namespace perideal
     template <int dim>
     std::vector<LocalIndex> order_along_curve(const std::vector<dealii::Point<dim>> &points)
     {
-      const auto                                         keys = dealii::Utilities::inverse_Hilbert_space_filling_curve(points);
+      // As many bits a direction as fit into one key.
+      constexpr int bits = 64 / dim;
+      const auto    keys = dealii::Utilities::inverse_Hilbert_space_filling_curve(points, bits);
       std::vector<std::pair<std::uint64_t, LocalIndex>> order(points.size());
       for (LocalIndex i = 0; i < points.size(); ++i)
-        order[i] = {dealii::Utilities::pack_integers<dim>(keys[i], 64 / dim), i};
+        order[i] = {dealii::Utilities::pack_integers<dim>(keys[i], bits), i};
       std::sort(order.begin(), order.end());
       std::vector<LocalIndex> result(points.size());
-      std::transform(order.begin(), order.end(), result.begin(), [](const auto &entry) { return entry.second; });
+      std::transform(
+        order.begin(), order.end(), result.begin(), [](const auto &entry) { return entry.second; });
       return result;
     }
 
@@ -66,7 +69,7 @@ namespace perideal
   {
     const GlobalIndex n_owned = position.size();
     first_global              = 0;
-    const int error = MPI_Exscan(&n_owned, &first_global, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    const int error           = MPI_Exscan(&n_owned, &first_global, 1, MPI_UINT64_T, MPI_SUM, communicator);
     AssertThrowMPI(error);
     n_global = dealii::Utilities::MPI::sum(n_owned, communicator);
   }
@@ -92,10 +95,8 @@ namespace perideal
     const dealii::MappingQ1<dim>  mapping;
     const dealii::FE_Nothing<dim> no_element;
     const dealii::QGauss<dim>     quadrature(2);
-    dealii::FEValues<dim>         values(mapping,
-                                 no_element,
-                                 quadrature,
-                                 dealii::update_JxW_values | dealii::update_quadrature_points);
+    dealii::FEValues<dim>         values(
+      mapping, no_element, quadrature, dealii::update_JxW_values | dealii::update_quadrature_points);
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {

@@ -61,49 +61,51 @@ namespace perideal
   void assemble_matrix(const ConstrainedOperator<dim> &system, dealii::TrilinosWrappers::SparseMatrix &matrix)
   {
     using dealii::types::global_dof_index;
-    const Targets<dim>     targets(system);
-    const GlobalIndex      n = dim * system.n_global();
-    dealii::IndexSet       owned(n);
+    const Targets<dim> targets(system);
+    const GlobalIndex  n = dim * system.n_global();
+    dealii::IndexSet   owned(n);
     owned.add_range(dim * system.first_global(), dim * (system.first_global() + system.n_nodes()));
 
     dealii::DynamicSparsityPattern sparsity(n, n);
     std::vector<global_dof_index>  columns;
     double                         largest_diagonal = 0;
-    system.bond_operator().assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-      columns.clear();
-      for (const GlobalIndex number : unknowns)
-        if (targets(number).factor != 0)
-          columns.push_back(targets(number).unknown);
-      for (const GlobalIndex number : unknowns)
-        if (targets(number).is_row)
-          sparsity.add_entries(targets(number).unknown, columns.begin(), columns.end());
-      largest_diagonal = std::max(largest_diagonal, std::abs(values[0]));
-    });
+    system.bond_operator().assemble(
+      [&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
+        columns.clear();
+        for (const GlobalIndex number : unknowns)
+          if (targets(number).factor != 0)
+            columns.push_back(targets(number).unknown);
+        for (const GlobalIndex number : unknowns)
+          if (targets(number).is_row)
+            sparsity.add_entries(targets(number).unknown, columns.begin(), columns.end());
+        largest_diagonal = std::max(largest_diagonal, std::abs(values[0]));
+      });
     for (const auto i : owned)
       sparsity.add(i, i);
     matrix.reinit(owned, owned, sparsity, system.communicator(), true);
 
     std::vector<double> row_values;
-    system.bond_operator().assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-      for (std::size_t r = 0; r < unknowns.size(); ++r)
-        {
-          const Target row = targets(unknowns[r]);
-          if (!row.is_row)
-            continue;
-          columns.clear();
-          row_values.clear();
-          for (std::size_t c = 0; c < unknowns.size(); ++c)
-            {
-              const Target column = targets(unknowns[c]);
-              if (column.factor != 0)
-                {
-                  columns.push_back(column.unknown);
-                  row_values.push_back(column.factor * values[r * unknowns.size() + c]);
-                }
-            }
-          matrix.add(row.unknown, columns.size(), columns.data(), row_values.data());
-        }
-    });
+    system.bond_operator().assemble(
+      [&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
+        for (std::size_t r = 0; r < unknowns.size(); ++r)
+          {
+            const Target row = targets(unknowns[r]);
+            if (!row.is_row)
+              continue;
+            columns.clear();
+            row_values.clear();
+            for (std::size_t c = 0; c < unknowns.size(); ++c)
+              {
+                const Target column = targets(unknowns[c]);
+                if (column.factor != 0)
+                  {
+                    columns.push_back(column.unknown);
+                    row_values.push_back(column.factor * values[r * unknowns.size() + c]);
+                  }
+              }
+            matrix.add(row.unknown, columns.size(), columns.data(), row_values.data());
+          }
+      });
     // Held rows want a diagonal of the size of the stiffness.
     largest_diagonal = dealii::Utilities::MPI::max(largest_diagonal, system.communicator());
     for (LocalIndex i = 0; i < dim * system.n_nodes(); ++i)

@@ -16,7 +16,8 @@ namespace perideal
     , multigrid(fem, false)
     , vertex_unknowns(nodes.size())
   {
-    smoother.set_damping(1. / estimate_largest_eigenvalue(system, smoother));
+    // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000 cells.
+    smoother.set_damping(1.3 / estimate_largest_eigenvalue(system, smoother));
 
     coarse_source.reinit(fem.solution());
     coarse_solution.reinit(fem.solution());
@@ -40,8 +41,8 @@ namespace perideal
   template <int dim>
   void AuxiliarySpace<dim>::restrict_to_fem(NodalVector &coarse, const NodalVector &fine) const
   {
-    coarse            = 0.;
-    double       *to  = coarse.begin();
+    coarse             = 0.;
+    double       *to   = coarse.begin();
     const double *from = fine.begin();
     for (LocalIndex i = 0; i < vertex_unknowns.size(); ++i)
       {

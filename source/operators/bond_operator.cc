@@ -29,10 +29,10 @@ namespace perideal
 
       void vmult(NodalVector &force, const NodalVector &displacement) const override;
       std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
-      void                                assemble(const typename BondOperator<dim>::AddBlock &add) const override;
-      const std::vector<double>          &dilatation() const override { return sums[0]; }
-      bool                                is_symmetric() const override { return symmetric; }
-      std::size_t                         memory_consumption() const override;
+      void                       assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+      const std::vector<double> &dilatation() const override { return sums[0]; }
+      bool                       is_symmetric() const override { return symmetric; }
+      std::size_t                memory_consumption() const override;
 
     private:
       /// Values of the two ends of every bond, by slot.
@@ -45,7 +45,7 @@ namespace perideal
       void weigh_families(LinearModel<dim>                                              &model,
                           const std::function<Moduli(const dealii::types::material_id)> &moduli);
       void store(const LocalIndex                    i,
-                 const FamilyCoefficients            &coefficients,
+                 const FamilyCoefficients           &coefficients,
                  const std::vector<BondCursor::End> &ends);
       void import_displacement(const NodalVector &displacement) const;
       void sum_over_families() const;
@@ -81,11 +81,11 @@ namespace perideal
       std::shared_ptr<const dealii::Utilities::MPI::Partitioner> state_partitioner;
 
       // Work space of vmult().
-      dealii::AlignedVector<NodeRecord>                         positions;
-      mutable dealii::AlignedVector<NodeRecord>                 displacements, forces;
-      mutable std::array<std::vector<double>, n_sums>           sums;
-      mutable std::array<std::vector<double>, n_sums>           state;
-      mutable NodalVector                                       ghosted, ghosted_states;
+      dealii::AlignedVector<NodeRecord>               positions;
+      mutable dealii::AlignedVector<NodeRecord>       displacements, forces;
+      mutable std::array<std::vector<double>, n_sums> sums;
+      mutable std::array<std::vector<double>, n_sums> state;
+      mutable NodalVector                             ghosted, ghosted_states;
     };
 
     template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -118,8 +118,7 @@ namespace perideal
 
     template <int dim, unsigned int n_sums, bool own_force_weights>
     void FamilyOperator<dim, n_sums, own_force_weights>::weigh_families(
-      LinearModel<dim>                                              &model,
-      const std::function<Moduli(const dealii::types::material_id)> &moduli)
+      LinearModel<dim> &model, const std::function<Moduli(const dealii::types::material_id)> &moduli)
     {
       const BondIndex n = bonds.n_slots();
       stiffness.assign(n, 0.);
@@ -184,8 +183,8 @@ namespace perideal
     }
 
     template <int dim, unsigned int n_sums, bool own_force_weights>
-    void FamilyOperator<dim, n_sums, own_force_weights>::store(const LocalIndex                    i,
-                                                               const FamilyCoefficients           &coefficients,
+    void FamilyOperator<dim, n_sums, own_force_weights>::store(const LocalIndex          i,
+                                                               const FamilyCoefficients &coefficients,
                                                                const std::vector<BondCursor::End> &ends)
     {
       map[i]           = coefficients.map;
@@ -205,7 +204,8 @@ namespace perideal
     }
 
     template <int dim, unsigned int n_sums, bool own_force_weights>
-    void FamilyOperator<dim, n_sums, own_force_weights>::import_displacement(const NodalVector &displacement) const
+    void
+    FamilyOperator<dim, n_sums, own_force_weights>::import_displacement(const NodalVector &displacement) const
     {
       const NodalVector *source = &displacement;
       if (families->n_local() > families->n_owned())
@@ -259,9 +259,9 @@ namespace perideal
     }
 
     template <int dim, unsigned int n_sums, bool own_force_weights>
-    std::array<double, n_sums> FamilyOperator<dim, n_sums, own_force_weights>::states(
-      const LocalIndex                  i,
-      const std::array<double, n_sums> &s) const
+    std::array<double, n_sums>
+    FamilyOperator<dim, n_sums, own_force_weights>::states(const LocalIndex                  i,
+                                                           const std::array<double, n_sums> &s) const
     {
       if constexpr (n_sums == 1)
         return {{map[i][0] * s[0]}};
@@ -334,12 +334,11 @@ namespace perideal
                   load(near, weights[a].near.data() + k);
                   load(far, weights[a].far.data() + k);
                   const double *s         = state[a].data();
-                  const Lanes   far_state = dim + a < 4 ?
-                                              Lanes{uj[0][(dim + a) % 4],
-                                                  uj[1][(dim + a) % 4],
-                                                  uj[2][(dim + a) % 4],
-                                                  uj[3][(dim + a) % 4]} :
-                                              Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+                  const Lanes   far_state = dim + a < 4 ? Lanes{uj[0][(dim + a) % 4],
+                                                              uj[1][(dim + a) % 4],
+                                                              uj[2][(dim + a) % 4],
+                                                              uj[3][(dim + a) % 4]} :
+                                                          Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
                   magnitude += near * s[i] + far * far_state;
                 }
               for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)

@@ -52,8 +52,8 @@ namespace perideal
                                    std::vector<dealii::Tensor<1, dim>> &displacement) const
   {
     // Least squares in the volume-weighted inner product.
-    const Eigen::Index n     = basis.size();
-    Eigen::MatrixXd    gram  = Eigen::MatrixXd::Zero(n, n);
+    const Eigen::Index n      = basis.size();
+    Eigen::MatrixXd    gram   = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd    moment = Eigen::VectorXd::Zero(n);
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       for (int d = 0; d < dim; ++d)

@@ -12,48 +12,47 @@ namespace perideal
   namespace
   {
     /// Comparisons (and MPI_MAX) lose a NaN; an infinity stays.
-    double
-    visible(const double magnitude)
+    double visible(const double magnitude)
     {
       return std::isnan(magnitude) ? std::numeric_limits<double>::infinity() : magnitude;
     }
   } // namespace
 
   template <int dim>
-  FieldErrors
-  field_errors(const Nodes<dim> &nodes, const std::vector<dealii::Tensor<1, dim>> &field,
-               const std::vector<dealii::Tensor<1, dim>> &reference)
+  FieldErrors field_errors(const Nodes<dim>                          &nodes,
+                           const std::vector<dealii::Tensor<1, dim>> &field,
+                           const std::vector<dealii::Tensor<1, dim>> &reference)
   {
     AssertDimension(field.size(), nodes.size());
     AssertDimension(reference.size(), nodes.size());
     std::vector<double> sums(2, 0.);
     std::vector<double> maxima(2, 0.);
     for (LocalIndex i = 0; i < nodes.size(); ++i)
-    {
-      const dealii::Tensor<1, dim> error = field[i] - reference[i];
-      sums[0] += nodes.volume[i] * error.norm_square();
-      sums[1] += nodes.volume[i] * reference[i].norm_square();
-      maxima[0] = std::max(maxima[0], visible(error.norm()));
-      maxima[1] = std::max(maxima[1], visible(reference[i].norm()));
-    }
+      {
+        const dealii::Tensor<1, dim> error = field[i] - reference[i];
+        sums[0] += nodes.volume[i] * error.norm_square();
+        sums[1] += nodes.volume[i] * reference[i].norm_square();
+        maxima[0] = std::max(maxima[0], visible(error.norm()));
+        maxima[1] = std::max(maxima[1], visible(reference[i].norm()));
+      }
     dealii::Utilities::MPI::sum(sums, nodes.communicator, sums);
     dealii::Utilities::MPI::max(maxima, nodes.communicator, maxima);
-    return { std::sqrt(sums[0] / sums[1]), maxima[0] / maxima[1] };
+    return {std::sqrt(sums[0] / sums[1]), maxima[0] / maxima[1]};
   }
 
   template <int dim>
-  std::array<double, dim>
-  profile_errors(const Nodes<dim> &nodes, const std::vector<LocalIndex> &selected,
-                 const std::vector<dealii::Tensor<1, dim>> &field,
-                 const std::vector<dealii::Tensor<1, dim>> &reference)
+  std::array<double, dim> profile_errors(const Nodes<dim>                          &nodes,
+                                         const std::vector<LocalIndex>             &selected,
+                                         const std::vector<dealii::Tensor<1, dim>> &field,
+                                         const std::vector<dealii::Tensor<1, dim>> &reference)
   {
     std::vector<double> maxima(2 * dim, 0.);
     for (const LocalIndex i : selected)
       for (unsigned int c = 0; c < dim; ++c)
-      {
-        maxima[c]       = std::max(maxima[c], visible(std::abs(field[i][c] - reference[i][c])));
-        maxima[dim + c] = std::max(maxima[dim + c], visible(std::abs(reference[i][c])));
-      }
+        {
+          maxima[c]       = std::max(maxima[c], visible(std::abs(field[i][c] - reference[i][c])));
+          maxima[dim + c] = std::max(maxima[dim + c], visible(std::abs(reference[i][c])));
+        }
     dealii::Utilities::MPI::max(maxima, nodes.communicator, maxima);
     std::array<double, dim> result;
     for (unsigned int c = 0; c < dim; ++c)
@@ -61,16 +60,20 @@ namespace perideal
     return result;
   }
 
-  template FieldErrors field_errors(const Nodes<2> &, const std::vector<dealii::Tensor<1, 2>> &,
+  template FieldErrors field_errors(const Nodes<2> &,
+                                    const std::vector<dealii::Tensor<1, 2>> &,
                                     const std::vector<dealii::Tensor<1, 2>> &);
-  template FieldErrors field_errors(const Nodes<3> &, const std::vector<dealii::Tensor<1, 3>> &,
+  template FieldErrors field_errors(const Nodes<3> &,
+                                    const std::vector<dealii::Tensor<1, 3>> &,
                                     const std::vector<dealii::Tensor<1, 3>> &);
 
   // The number 2 of std::array<double, 2> is no int, so it must be said here.
-  template std::array<double, 2> profile_errors<2>(const Nodes<2> &, const std::vector<LocalIndex> &,
+  template std::array<double, 2> profile_errors<2>(const Nodes<2> &,
+                                                   const std::vector<LocalIndex> &,
                                                    const std::vector<dealii::Tensor<1, 2>> &,
                                                    const std::vector<dealii::Tensor<1, 2>> &);
-  template std::array<double, 3> profile_errors<3>(const Nodes<3> &, const std::vector<LocalIndex> &,
+  template std::array<double, 3> profile_errors<3>(const Nodes<3> &,
+                                                   const std::vector<LocalIndex> &,
                                                    const std::vector<dealii::Tensor<1, 3>> &,
                                                    const std::vector<dealii::Tensor<1, 3>> &);
 } // namespace perideal

@@ -14,82 +14,80 @@
 namespace perideal
 {
   template <int dim>
-  FieldOutput<dim>::FieldOutput(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::string &directory,
-                                const OutputSteps steps)
-      : triangulation(mesh.triangulation)
-      , node_of_cell(nodes.node_of_cell)
-      , directory(directory)
-      , steps(steps)
-      , communicator(nodes.communicator)
-      , vector_unknowns(mesh.triangulation)
+  FieldOutput<dim>::FieldOutput(const Mesh<dim>   &mesh,
+                                const Nodes<dim>  &nodes,
+                                const std::string &directory,
+                                const OutputSteps  steps)
+    : triangulation(mesh.triangulation)
+    , node_of_cell(nodes.node_of_cell)
+    , directory(directory)
+    , steps(steps)
+    , communicator(nodes.communicator)
+    , vector_unknowns(mesh.triangulation)
   {
     create_output_directory(directory, communicator);
     vector_unknowns.distribute_dofs(dealii::FESystem<dim>(dealii::FE_DGQ<dim>(0), dim));
   }
 
   template <int dim>
-  void
-  FieldOutput<dim>::add_vector(const std::string &name, const std::vector<dealii::Tensor<1, dim>> &values)
+  void FieldOutput<dim>::add_vector(const std::string                         &name,
+                                    const std::vector<dealii::Tensor<1, dim>> &values)
   {
     CellVector cell_values(vector_unknowns.locally_owned_dofs(), communicator);
 
     std::vector<dealii::types::global_dof_index> unknowns(dim);
     for (const auto &cell : vector_unknowns.active_cell_iterators())
       if (cell->is_locally_owned())
-      {
-        const LocalIndex node = node_of_cell[cell->active_cell_index()];
-        AssertIndexRange(node, values.size());
-        cell->get_dof_indices(unknowns);
-        for (unsigned int d = 0; d < dim; ++d)
-          cell_values(unknowns[d]) = values[node][d];
-      }
+        {
+          const LocalIndex node = node_of_cell[cell->active_cell_index()];
+          AssertIndexRange(node, values.size());
+          cell->get_dof_indices(unknowns);
+          for (unsigned int d = 0; d < dim; ++d)
+            cell_values(unknowns[d]) = values[node][d];
+        }
     vectors.emplace_back(name, std::move(cell_values));
   }
 
   template <int dim>
-  void
-  FieldOutput<dim>::add_scalar(const std::string &name, const std::vector<double> &values)
+  void FieldOutput<dim>::add_scalar(const std::string &name, const std::vector<double> &values)
   {
     dealii::Vector<double> cell_values(triangulation.n_active_cells());
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
-      {
-        const LocalIndex node = node_of_cell[cell->active_cell_index()];
-        AssertIndexRange(node, values.size());
-        cell_values[cell->active_cell_index()] = values[node];
-      }
+        {
+          const LocalIndex node = node_of_cell[cell->active_cell_index()];
+          AssertIndexRange(node, values.size());
+          cell_values[cell->active_cell_index()] = values[node];
+        }
     scalars.emplace_back(name, std::move(cell_values));
   }
 
   template <int dim>
-  void
-  FieldOutput<dim>::write(const unsigned int step, const double time)
+  void FieldOutput<dim>::write(const unsigned int step, const double time)
   {
     const std::string name = filename(step);
     try
-    {
-      write_vtu(directory + "/" + name, step, time);
-    }
+      {
+        write_vtu(directory + "/" + name, step, time);
+      }
     catch (const dealii::ExceptionBase &)
-    {
-      throw ComputationError("cannot write '" + directory + "/" + name + "': is the disk full?");
-    }
+      {
+        throw ComputationError("cannot write '" + directory + "/" + name + "': is the disk full?");
+      }
     list_in_pvd(name, time);
     vectors.clear();
     scalars.clear();
   }
 
   template <int dim>
-  std::string
-  FieldOutput<dim>::filename(const unsigned int step) const
+  std::string FieldOutput<dim>::filename(const unsigned int step) const
   {
-    return steps == OutputSteps::single ? "solution.vtu"
-                                        : "solution_" + dealii::Utilities::int_to_string(step, 4) + ".vtu";
+    return steps == OutputSteps::single ? "solution.vtu" :
+                                          "solution_" + dealii::Utilities::int_to_string(step, 4) + ".vtu";
   }
 
   template <int dim>
-  void
-  FieldOutput<dim>::write_vtu(const std::string &path, const unsigned int step, const double time) const
+  void FieldOutput<dim>::write_vtu(const std::string &path, const unsigned int step, const double time) const
   {
     dealii::DataOut<dim>          data_out;
     dealii::DataOutBase::VtkFlags flags(time, step);
@@ -100,7 +98,7 @@ namespace perideal
 
     data_out.attach_triangulation(triangulation);
     const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> is_vector(
-        dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
+      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
     for (const auto &[name, values] : vectors)
       data_out.add_data_vector(vector_unknowns, values, std::vector<std::string>(dim, name), is_vector);
     for (const auto &[name, values] : scalars)
@@ -112,8 +110,7 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  FieldOutput<dim>::list_in_pvd(const std::string &name, const double time)
+  void FieldOutput<dim>::list_in_pvd(const std::string &name, const double time)
   {
     if (steps == OutputSteps::single)
       written.clear();

@@ -13,8 +13,7 @@ namespace perideal
   namespace
   {
     /// What stands in the way of writing in the directory; empty when nothing does.
-    std::string
-    try_directory(const std::filesystem::path &directory)
+    std::string try_directory(const std::filesystem::path &directory)
     {
       std::error_code error;
       std::filesystem::create_directories(directory, error);
@@ -32,8 +31,7 @@ namespace perideal
     }
   } // namespace
 
-  void
-  create_output_directory(const std::string &directory, MPI_Comm communicator)
+  void create_output_directory(const std::string &directory, MPI_Comm communicator)
   {
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -41,13 +39,12 @@ namespace perideal
     problem = dealii::Utilities::MPI::broadcast(communicator, problem, 0);
     if (!problem.empty())
       throw InputError(problem)
-          .parameter("Output directory")
-          .given(directory)
-          .allowed("a directory in which you may write; it is created where it does not exist");
+        .parameter("Output directory")
+        .given(directory)
+        .allowed("a directory in which you may write; it is created where it does not exist");
   }
 
-  void
-  replace_file(const std::string &path, const std::string &text)
+  void replace_file(const std::string &path, const std::string &text)
   {
     const std::string temporary = path + ".part";
     std::ofstream     file(temporary, std::ios::binary);
@@ -60,38 +57,36 @@ namespace perideal
       throw ComputationError("cannot write '" + path + "': is the disk full?");
   }
 
-  void
-  write_csv_header(std::ostream &out, const std::vector<std::string> &names)
+  void write_csv_header(std::ostream &out, const std::vector<std::string> &names)
   {
     const char *separator = "";
     for (const std::string &name : names)
-    {
-      out << separator;
-      separator = ",";
-      if (name.find_first_of(",\"\n") == std::string::npos)
       {
-        out << name;
-        continue;
+        out << separator;
+        separator = ",";
+        if (name.find_first_of(",\"\n") == std::string::npos)
+          {
+            out << name;
+            continue;
+          }
+        out << '"';
+        for (const char c : name)
+          out << (c == '"' ? "\"\"" : std::string(1, c));
+        out << '"';
       }
-      out << '"';
-      for (const char c : name)
-        out << (c == '"' ? "\"\"" : std::string(1, c));
-      out << '"';
-    }
     out << '\n';
   }
 
-  void
-  write_csv_row(std::ostream &out, const std::vector<double> &values)
+  void write_csv_row(std::ostream &out, const std::vector<double> &values)
   {
     const char *separator = "";
     char        number[32];
     for (const double value : values)
-    {
-      std::snprintf(number, sizeof(number), "%.17g", value);
-      out << separator << number;
-      separator = ",";
-    }
+      {
+        std::snprintf(number, sizeof(number), "%.17g", value);
+        out << separator << number;
+        separator = ",";
+      }
     out << '\n';
   }
 } // namespace perideal

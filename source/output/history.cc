@@ -12,8 +12,8 @@
 namespace perideal
 {
   History::History(const std::string &directory, MPI_Comm communicator)
-      : directory(directory)
-      , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    : directory(directory)
+    , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     create_output_directory(directory, communicator);
     if (is_writer)
@@ -23,57 +23,53 @@ namespace perideal
   History::~History()
   {
     try
-    {
-      finish();
-    }
+      {
+        finish();
+      }
     catch (const std::exception &error)
-    {
-      std::cerr << "history.h5 could not be written: " << error.what() << std::endl;
-    }
+      {
+        std::cerr << "history.h5 could not be written: " << error.what() << std::endl;
+      }
   }
 
-  void
-  History::add(const std::string &name, const double value)
+  void History::add(const std::string &name, const double value)
   {
     row_names.push_back(name);
     row_values.push_back(value);
   }
 
-  void
-  History::end_row()
+  void History::end_row()
   {
     Assert(!is_finished, dealii::ExcMessage("finish() was called before"));
     if (columns.empty())
-    {
-      column_names = row_names;
-      columns.resize(column_names.size());
-      if (is_writer)
-        write_csv_header(csv, column_names);
-    }
+      {
+        column_names = row_names;
+        columns.resize(column_names.size());
+        if (is_writer)
+          write_csv_header(csv, column_names);
+      }
     AssertThrow(row_names == column_names, dealii::ExcMessage("a row of the history has other columns"));
     if (is_writer)
-    {
-      for (std::size_t column = 0; column < columns.size(); ++column)
-        columns[column].push_back(row_values[column]);
-      write_csv_row(csv, row_values);
-      csv.flush();
-      if (!csv)
-        throw ComputationError("cannot write '" + directory + "/history.csv': is the disk full?");
-    }
+      {
+        for (std::size_t column = 0; column < columns.size(); ++column)
+          columns[column].push_back(row_values[column]);
+        write_csv_row(csv, row_values);
+        csv.flush();
+        if (!csv)
+          throw ComputationError("cannot write '" + directory + "/history.csv': is the disk full?");
+      }
     row_names.clear();
     row_values.clear();
   }
 
-  void
-  History::add_series(const std::string &name, const std::vector<double> &values)
+  void History::add_series(const std::string &name, const std::vector<double> &values)
   {
     Assert(!is_finished, dealii::ExcMessage("finish() was called before"));
     if (is_writer)
       series[name] = values;
   }
 
-  void
-  History::finish()
+  void History::finish()
   {
     if (is_finished)
       return;

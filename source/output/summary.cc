@@ -14,8 +14,7 @@
 
 namespace perideal
 {
-  void
-  write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator)
+  void write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator)
   {
     // A path or a name of the user's may hold bytes that are no UTF-8; the
     // results of a run are not lost for that.
@@ -24,26 +23,26 @@ namespace perideal
       replace_file(path, summary.dump(2, ' ', false, mend) + "\n");
   }
 
-  std::string
-  report_table(const std::vector<std::string> &header, const std::vector<std::vector<std::string>> &rows)
+  std::string report_table(const std::vector<std::string>              &header,
+                           const std::vector<std::vector<std::string>> &rows)
   {
     std::vector<std::size_t> widths;
     for (const std::string &title : header)
       widths.push_back(title.size());
     for (const auto &row : rows)
-    {
-      AssertDimension(row.size(), header.size());
-      for (std::size_t column = 0; column < row.size(); ++column)
-        widths[column] = std::max(widths[column], row[column].size());
-    }
+      {
+        AssertDimension(row.size(), header.size());
+        for (std::size_t column = 0; column < row.size(); ++column)
+          widths[column] = std::max(widths[column], row[column].size());
+      }
 
     std::string text;
     const auto  append = [&](const std::vector<std::string> &row) {
       for (std::size_t column = 0; column < row.size(); ++column)
-      {
-        const std::string padding(widths[column] - row[column].size(), ' ');
-        text += column == 0 ? row[column] + padding : "  " + padding + row[column];
-      }
+        {
+          const std::string padding(widths[column] - row[column].size(), ' ');
+          text += column == 0 ? row[column] + padding : "  " + padding + row[column];
+        }
       text += '\n';
     };
     append(header);
@@ -52,8 +51,7 @@ namespace perideal
     return text;
   }
 
-  std::string
-  short_number(const double value)
+  std::string short_number(const double value)
   {
     if (!std::isfinite(value))
       return "-";
@@ -62,8 +60,7 @@ namespace perideal
     return text;
   }
 
-  std::uint64_t
-  peak_memory_bytes(MPI_Comm communicator)
+  std::uint64_t peak_memory_bytes(MPI_Comm communicator)
   {
     dealii::Utilities::System::MemoryStats statistics;
     dealii::Utilities::System::get_memory_stats(statistics);

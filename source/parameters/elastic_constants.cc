@@ -12,12 +12,12 @@ namespace perideal
   {
     switch (assumption)
       {
-        case PlaneAssumption::plane_stress:
-          return young_modulus / (2. * (1. - poisson_ratio));
-        case PlaneAssumption::plane_strain:
-          return young_modulus / (2. * (1. + poisson_ratio) * (1. - 2. * poisson_ratio));
-        default:
-          return young_modulus / (3. * (1. - 2. * poisson_ratio));
+      case PlaneAssumption::plane_stress:
+        return young_modulus / (2. * (1. - poisson_ratio));
+      case PlaneAssumption::plane_strain:
+        return young_modulus / (2. * (1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+      default:
+        return young_modulus / (3. * (1. - 2. * poisson_ratio));
       }
   }
 

@@ -67,17 +67,19 @@ namespace perideal
   void LoadParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     prm.enter_subsection("Boundary conditions");
-    prm.add_parameter("Displacement treatment",
-                      displacement_treatment,
-                      "How prescribed displacements reach the nodes: layer: nodes of the cells at the boundary "
-                      "take the boundary's value; reference: they take the reference solution's value at the "
-                      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary",
-                      dealii::Patterns::Selection("layer|reference|mirror"));
-    prm.add_parameter("Rigid body motions",
-                      rigid_body_motions,
-                      "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "
-                      "the solution whose mean translation and rotation are zero (the loads must balance)",
-                      dealii::Patterns::Selection("error|remove"));
+    prm.add_parameter(
+      "Displacement treatment",
+      displacement_treatment,
+      "How prescribed displacements reach the nodes: layer: nodes of the cells at the boundary "
+      "take the boundary's value; reference: they take the reference solution's value at the "
+      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary",
+      dealii::Patterns::Selection("layer|reference|mirror"));
+    prm.add_parameter(
+      "Rigid body motions",
+      rigid_body_motions,
+      "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "
+      "the solution whose mean translation and rotation are zero (the loads must balance)",
+      dealii::Patterns::Selection("error|remove"));
     for (const std::string &name : file.subsections("Boundary conditions"))
       {
         conditions.emplace_back();
@@ -87,9 +89,8 @@ namespace perideal
     for (BoundaryConditionText &condition : conditions)
       {
         prm.enter_subsection(condition.name);
-        prm.add_parameter("Boundary",
-                          condition.boundary,
-                          "Gmsh physical names or ids of the boundary, separated by commas");
+        prm.add_parameter(
+          "Boundary", condition.boundary, "Gmsh physical names or ids of the boundary, separated by commas");
         for (unsigned int d = 0; d < 3; ++d)
           prm.add_parameter("u_" + axes[d],
                             condition.displacement[d],
@@ -110,7 +111,8 @@ namespace perideal
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter("b_" + axes[d],
                         body_force[d],
-                        "Force per volume along " + axes[d] + " [N/m^3], a formula in x, y, z, t; empty: none");
+                        "Force per volume along " + axes[d] +
+                          " [N/m^3], a formula in x, y, z, t; empty: none");
     prm.leave_subsection();
   }
 

@@ -27,7 +27,8 @@ namespace perideal
       };
       declare("Young modulus", properties.young_modulus, "Young's modulus E > 0 [Pa]");
       declare("Poisson ratio", properties.poisson_ratio, "Poisson's ratio, -1 < nu < 0.5 [-]");
-      declare("Density", properties.density, "Mass density > 0 [kg/m^3]; --check uses it for the stable time step");
+      declare(
+        "Density", properties.density, "Mass density > 0 [kg/m^3]; --check uses it for the stable time step");
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "
@@ -48,7 +49,9 @@ namespace perideal
           .allowed("-1 < nu < 0.5")
           .hint(assumption == "plane stress" ? "" : "nu = 0.5 is incompressible: take a value such as 0.49");
       if (!(properties.density > 0))
-        throw InputError("the density must be positive").parameter(section + "/Density").allowed("a number > 0");
+        throw InputError("the density must be positive")
+          .parameter(section + "/Density")
+          .allowed("a number > 0");
       if (!(properties.fracture_energy >= 0))
         throw InputError("the fracture energy must not be negative")
           .parameter(section + "/Fracture energy")
@@ -80,7 +83,8 @@ namespace perideal
       check_properties(group.second, "Material/" + group.first, assumption);
   }
 
-  ElasticConstants MaterialParameters::elastic_constants(const MaterialProperties &material, const int dim) const
+  ElasticConstants MaterialParameters::elastic_constants(const MaterialProperties &material,
+                                                         const int                 dim) const
   {
     const PlaneAssumption plane =
       assumption == "plane strain" ? PlaneAssumption::plane_strain : PlaneAssumption::plane_stress;

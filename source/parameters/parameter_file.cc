@@ -119,15 +119,17 @@ namespace perideal
       const std::string start = "[Selection ";
       if (pattern.compare(0, start.size(), start) != 0)
         return {};
-      return dealii::Utilities::split_string_list(pattern.substr(start.size(), pattern.rfind(']') - start.size()),
-                                                  '|');
+      return dealii::Utilities::split_string_list(
+        pattern.substr(start.size(), pattern.rfind(']') - start.size()), '|');
     }
 
     /// A pattern in the words of our messages.
     std::string describe_pattern(const std::string &pattern)
     {
       const auto choices = selection_of(pattern);
-      return choices.empty() ? pattern : join_choices(choices);
+      if (!choices.empty())
+        return join_choices(choices);
+      return dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
     }
 
     /// Sets one value; false when it does not match the pattern.
@@ -155,8 +157,9 @@ namespace perideal
   {
     std::ifstream file(filename);
     if (!file)
-      throw InputError("cannot read the parameter file").location(filename).hint(
-        "check the path; it is taken from the current directory");
+      throw InputError("cannot read the parameter file")
+        .location(filename)
+        .hint("check the path; it is taken from the current directory");
     std::ostringstream text;
     text << file.rdbuf();
     return parse(text.str(), filename);
@@ -195,16 +198,20 @@ namespace perideal
           {
             const std::size_t equals = rest.find('=');
             if (equals == std::string::npos)
-              throw InputError("no \"=\" in this line").location(where).given(line).allowed(
-                "set NAME = VALUE");
+              throw InputError("no \"=\" in this line")
+                .location(where)
+                .given(line)
+                .allowed("set NAME = VALUE");
             result.assignments.push_back({join(section),
                                           dealii::Utilities::trim(rest.substr(0, equals)),
                                           dealii::Utilities::trim(rest.substr(equals + 1)),
                                           where});
           }
         else
-          throw InputError("line not understood").location(where).given(line).allowed(
-            "set NAME = VALUE | subsection NAME | end | # comment");
+          throw InputError("line not understood")
+            .location(where)
+            .given(line)
+            .allowed("set NAME = VALUE | subsection NAME | end | # comment");
       }
     if (!section.empty())
       throw InputError("subsection \"" + section.back() + "\" is never closed")
@@ -217,8 +224,9 @@ namespace perideal
   {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
-      throw InputError("--set needs a parameter and a value").given(text).allowed(
-        "--set \"Section/Name=value\"");
+      throw InputError("--set needs a parameter and a value")
+        .given(text)
+        .allowed("--set \"Section/Name=value\"");
     std::vector<std::string> path = split_path(dealii::Utilities::trim(text.substr(0, equals)));
     if (path.empty())
       throw InputError("--set without a parameter name").given(text).allowed("--set \"Section/Name=value\"");
@@ -234,7 +242,8 @@ namespace perideal
   {
     std::vector<std::string> result;
     for (const std::string &candidate : sections)
-      if (candidate.size() > section.size() + 1 && candidate.compare(0, section.size() + 1, section + "/") == 0)
+      if (candidate.size() > section.size() + 1 &&
+          candidate.compare(0, section.size() + 1, section + "/") == 0)
         {
           const std::string name = candidate.substr(section.size() + 1);
           if (name.find('/') == std::string::npos &&

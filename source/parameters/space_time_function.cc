@@ -4,16 +4,40 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <cmath>
+#include <iostream>
 
 namespace perideal
 {
+  namespace
+  {
+    /// Nothing is written to std::cerr as long as one of these lives.
+    class SilentErrorStream
+    {
+    public:
+      SilentErrorStream()
+        : original(std::cerr.rdbuf(nullptr))
+      {
+      }
+      ~SilentErrorStream()
+      {
+        std::cerr.rdbuf(original);
+        std::cerr.clear();
+      }
+
+    private:
+      std::streambuf *original;
+    };
+  } // namespace
+
   template <int dim>
   SpaceTimeFunction<dim>::SpaceTimeFunction(const std::string &expression, const std::string &parameter)
   {
     if (expression.empty())
       return;
     const std::string variables = dim == 2 ? "x,y,t" : "x,y,z,t";
+    // deal.II reports what muParser found on the error stream; there it would
+    // stand beside our own message.
+    const SilentErrorStream silent;
     try
       {
         function = std::make_shared<dealii::FunctionParser<dim>>(1);

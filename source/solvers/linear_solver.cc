@@ -19,26 +19,27 @@ namespace perideal
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Solver");
-    prm.add_parameter("Name", name, "What is solved: static: equilibrium under the final loads", Selection("static"));
+    prm.add_parameter(
+      "Name", name, "What is solved: static: equilibrium under the final loads", Selection("static"));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual over the first residual at which a linear solve ends, 0 < tolerance < 1 [-]",
                       Double());
-    prm.add_parameter("Maximum iterations",
-                      max_iterations,
-                      "Iterations after which a linear solve has failed",
-                      Integer(1));
-    prm.add_parameter("Linear solver",
-                      linear_solver,
-                      "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
-                      "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
-                      "small problems",
-                      Selection("automatic|cg|gmres|trilinos cg|trilinos gmres|direct"));
-    prm.add_parameter("Preconditioner",
-                      preconditioner,
-                      "auxiliary: block Jacobi plus multigrid on the finite-element matrix of the same mesh; block "
-                      "jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
-                      Selection("auxiliary|block jacobi|none"));
+    prm.add_parameter(
+      "Maximum iterations", max_iterations, "Iterations after which a linear solve has failed", Integer(1));
+    prm.add_parameter(
+      "Linear solver",
+      linear_solver,
+      "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
+      "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
+      "small problems",
+      Selection("automatic|cg|gmres|trilinos cg|trilinos gmres|direct"));
+    prm.add_parameter(
+      "Preconditioner",
+      preconditioner,
+      "auxiliary: block Jacobi plus multigrid on the finite-element matrix of the same mesh; block "
+      "jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
+      Selection("auxiliary|block jacobi|none"));
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
@@ -49,7 +50,9 @@ namespace perideal
   void SolverParameters::check() const
   {
     if (!(tolerance > 0 && tolerance < 1))
-      throw InputError("the tolerance is out of range").parameter("Solver/Tolerance").allowed("0 < tolerance < 1");
+      throw InputError("the tolerance is out of range")
+        .parameter("Solver/Tolerance")
+        .allowed("0 < tolerance < 1");
   }
 
   bool SolverParameters::assembles() const
@@ -71,10 +74,12 @@ namespace perideal
       Monitor(LinearSolve &result, const std::function<void(const unsigned int, const double)> &progress)
         : result(result)
         , progress(progress)
-      {}
+      {
+      }
 
       template <typename Vector>
-      dealii::SolverControl::State operator()(const unsigned int iteration, const double residual, const Vector &)
+      dealii::SolverControl::State
+      operator()(const unsigned int iteration, const double residual, const Vector &)
       {
         if (iteration == 0)
           first = residual > 0 ? residual : 1.;
@@ -85,9 +90,9 @@ namespace perideal
       }
 
     private:
-      LinearSolve                                                     &result;
+      LinearSolve                                                 &result;
       const std::function<void(const unsigned int, const double)> &progress;
-      double                                                            first = 1;
+      double                                                       first = 1;
     };
 
     /// deal.II's CG or GMRES on the matrix-free operator.
@@ -95,25 +100,26 @@ namespace perideal
     class KrylovSolver : public LinearSolver<dim>
     {
     public:
-      KrylovSolver(const SolverParameters           &parameters,
-                   const ConstrainedOperator<dim>   &system,
-                   const NullSpace<dim>             &null_space,
-                   std::unique_ptr<Preconditioner>   preconditioner,
-                   const bool                        symmetric)
+      KrylovSolver(const SolverParameters         &parameters,
+                   const ConstrainedOperator<dim> &system,
+                   const NullSpace<dim>           &null_space,
+                   std::unique_ptr<Preconditioner> preconditioner,
+                   const bool                      symmetric)
         : parameters(parameters)
         , system(system)
         , null_space(null_space)
         , preconditioner(std::move(preconditioner))
         , symmetric(symmetric)
-      {}
+      {
+      }
 
-      LinearSolve solve(NodalVector                                     &solution,
-                        const NodalVector                               &source,
+      LinearSolve solve(NodalVector                                &solution,
+                        const NodalVector                          &source,
                         const typename LinearSolver<dim>::Progress &progress) override
       {
-        LinearSolve                                       result;
-        Monitor                                           monitor(result, progress);
-        dealii::ReductionControl                          control(parameters.max_iterations, 1e-300, parameters.tolerance);
+        LinearSolve              result;
+        Monitor                  monitor(result, progress);
+        dealii::ReductionControl control(parameters.max_iterations, 1e-300, parameters.tolerance);
         const ProjectedPreconditioner<dim, Preconditioner> projected(*preconditioner, null_space);
         try
           {
@@ -124,7 +130,8 @@ namespace perideal
             result.converged = true;
           }
         catch (const dealii::SolverControl::NoConvergence &)
-          {}
+          {
+          }
         result.iterations = control.last_step();
         return result;
       }
@@ -264,9 +271,9 @@ namespace perideal
         .parameter("Solver/Linear solver")
         .allowed("automatic | gmres | trilinos gmres | direct");
 
-    const bool symmetric = parameters.linear_solver == "automatic" ? system.is_symmetric() :
-                                                                     parameters.linear_solver == "cg";
-    const auto krylov    = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
+    const bool symmetric =
+      parameters.linear_solver == "automatic" ? system.is_symmetric() : parameters.linear_solver == "cg";
+    const auto krylov = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
       using Preconditioner = typename decltype(preconditioner)::element_type;
       return std::make_unique<KrylovSolver<dim, Preconditioner>>(
         parameters, system, null_space, std::move(preconditioner), symmetric);

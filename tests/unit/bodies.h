@@ -42,7 +42,7 @@ namespace perideal::test
       mesh->triangulation, cells, dealii::Point<dim>(), size, true);
     dealii::GridTools::transform(
       [&](const dealii::Point<dim> &vertex) {
-        dealii::Point<dim> moved = vertex;
+        dealii::Point<dim> moved  = vertex;
         bool               inside = true;
         for (int d = 0; d < dim; ++d)
           inside = inside && vertex[d] > 1e-9 * size[d] && vertex[d] < (1 - 1e-9) * size[d];
@@ -84,7 +84,8 @@ namespace perideal::test
     explicit Body(const Mesh<dim> &mesh, const double horizon_factor = 3.01)
       : nodes(mesh, NodeParameters{horizon_factor})
       , families(std::make_shared<const Families<dim>>(nodes))
-    {}
+    {
+    }
 
     Nodes<dim>                           nodes;
     std::shared_ptr<const Families<dim>> families;

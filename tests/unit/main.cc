@@ -14,18 +14,16 @@ namespace
   {
   public:
     explicit FailurePrinter(const unsigned int rank)
-        : rank(rank)
+      : rank(rank)
     {
     }
 
-    void
-    OnTestStart(const testing::TestInfo &test) override
+    void OnTestStart(const testing::TestInfo &test) override
     {
       test_name = std::string(test.test_suite_name()) + "." + test.name();
     }
 
-    void
-    OnTestPartResult(const testing::TestPartResult &result) override
+    void OnTestPartResult(const testing::TestPartResult &result) override
     {
       // GoogleTest holds its lock here: asking it for the current test would wait for ever.
       if (!result.failed())
@@ -43,19 +41,18 @@ namespace
   };
 } // namespace
 
-int
-main(int argc, char **argv)
+int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   testing::InitGoogleTest(&argc, argv);
 
   const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   if (rank > 0)
-  {
-    auto &listeners = testing::UnitTest::GetInstance()->listeners();
-    delete listeners.Release(listeners.default_result_printer());
-    listeners.Append(new FailurePrinter(rank)); // GoogleTest deletes it
-  }
+    {
+      auto &listeners = testing::UnitTest::GetInstance()->listeners();
+      delete listeners.Release(listeners.default_result_printer());
+      listeners.Append(new FailurePrinter(rank)); // GoogleTest deletes it
+    }
 
   // A test that fails on any rank fails the program on all.
   const int failed = RUN_ALL_TESTS();

@@ -48,22 +48,13 @@ namespace perideal::test
     }
 
     /// Path of the directory itself.
-    std::string
-    path() const
-    {
-      return directory.string();
-    }
+    std::string path() const { return directory.string(); }
 
     /// Path of a file in it.
-    std::string
-    path(const std::string &file) const
-    {
-      return (directory / file).string();
-    }
+    std::string path(const std::string &file) const { return (directory / file).string(); }
 
     /// Writes a file into it, seen by all ranks afterwards; returns its path. Collective.
-    std::string
-    write(const std::string &file, const std::string &content) const
+    std::string write(const std::string &file, const std::string &content) const
     {
       if (is_first_rank())
         std::ofstream(directory / file, std::ios::binary) << content;
@@ -72,55 +63,52 @@ namespace perideal::test
     }
 
   private:
-    static bool
-    is_first_rank()
-    {
-      return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    }
+    static bool is_first_rank() { return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0; }
 
     std::filesystem::path directory;
   };
 
   /// Whole content of a file; an empty string when it cannot be read.
-  inline std::string
-  read_file(const std::string &path)
+  inline std::string read_file(const std::string &path)
   {
     std::ifstream file(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
   /// @p callable throws an @p Exception whose message contains all the words.
   /// A failure is reported at the line of the caller.
   template <typename Exception, typename Callable>
-  void
-  expect_error(Callable &&callable, const std::vector<std::string> &words,
-               const char *file = __builtin_FILE(), const int line = __builtin_LINE())
+  void expect_error(Callable                      &&callable,
+                    const std::vector<std::string> &words,
+                    const char                     *file = __builtin_FILE(),
+                    const int                       line = __builtin_LINE())
   {
     try
-    {
-      std::forward<Callable>(callable)();
-    }
+      {
+        std::forward<Callable>(callable)();
+      }
     catch (const Exception &error)
-    {
-      const std::string message = error.what();
-      for (const std::string &word : words)
-        if (message.find(word) == std::string::npos)
-          ADD_FAILURE_AT(file, line) << "the message lacks \"" << word << "\":\n" << message;
-      return;
-    }
+      {
+        const std::string message = error.what();
+        for (const std::string &word : words)
+          if (message.find(word) == std::string::npos)
+            ADD_FAILURE_AT(file, line) << "the message lacks \"" << word << "\":\n" << message;
+        return;
+      }
     catch (const std::exception &error)
-    {
-      ADD_FAILURE_AT(file, line) << "an exception of another type was thrown:\n" << error.what();
-      return;
-    }
+      {
+        ADD_FAILURE_AT(file, line) << "an exception of another type was thrown:\n" << error.what();
+        return;
+      }
     ADD_FAILURE_AT(file, line) << "nothing was thrown";
   }
 
   /// @p callable rejects the user's input with a message that contains all the words.
   template <typename Callable>
-  void
-  expect_input_error(Callable &&callable, const std::vector<std::string> &words,
-                     const char *file = __builtin_FILE(), const int line = __builtin_LINE())
+  void expect_input_error(Callable                      &&callable,
+                          const std::vector<std::string> &words,
+                          const char                     *file = __builtin_FILE(),
+                          const int                       line = __builtin_LINE())
   {
     expect_error<InputError>(std::forward<Callable>(callable), words, file, line);
   }

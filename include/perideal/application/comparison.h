@@ -28,7 +28,8 @@ namespace perideal
 
   /// The exact solution at the nodes.
   template <int dim>
-  NodalField<dim> evaluate_exact(const SceneState<dim> &scene, const ComparisonParameters &parameters, const double time);
+  NodalField<dim>
+  evaluate_exact(const SceneState<dim> &scene, const ComparisonParameters &parameters, const double time);
 
   /**
    * Errors of the displacement against every comparison of the scene, and of

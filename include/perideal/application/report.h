@@ -17,7 +17,8 @@ namespace perideal
   /// The parts of summary.json that describe the discretisation: mesh, nodes,
   /// bonds, neighbours, model. Collective.
   template <int dim>
-  nlohmann::ordered_json describe_discretisation(const SceneParameters &parameters, const SceneState<dim> &scene);
+  nlohmann::ordered_json describe_discretisation(const SceneParameters &parameters,
+                                                 const SceneState<dim> &scene);
 
   /// What the scene does not need, by name, with the amount saved.
   template <int dim>

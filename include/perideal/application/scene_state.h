@@ -38,11 +38,11 @@ namespace perideal
     std::vector<std::vector<dealii::types::boundary_id>> condition_boundaries;
     ConstantsByMaterial                                  constants;
 
-    std::unique_ptr<Nodes<dim>>             nodes;
-    std::vector<BoundaryFace<dim>>          faces;
-    HeldNodes<dim>                          held;
-    std::shared_ptr<MirrorLayer<dim>>       mirror;
-    std::shared_ptr<const Families<dim>>    families;
+    std::unique_ptr<Nodes<dim>>          nodes;
+    std::vector<BoundaryFace<dim>>       faces;
+    HeldNodes<dim>                       held;
+    std::shared_ptr<MirrorLayer<dim>>    mirror;
+    std::shared_ptr<const Families<dim>> families;
 
     std::shared_ptr<BondOperator<dim>>        bonds;
     std::unique_ptr<ConstrainedOperator<dim>> system;

@@ -53,6 +53,8 @@ namespace perideal
     void prepare_comparisons();
     void weigh_bonds();
     void set_up_solver();
+    void apply_loads(const double time);
+    void check_loads();
     void step(const unsigned int number);
     void solve_equilibrium(const double time, NodalVector &displacement);
     void store_displacement();
@@ -64,13 +66,13 @@ namespace perideal
     /// The material of a cell group.
     const MaterialProperties &properties_of(const dealii::types::material_id id) const;
 
-    const SceneParameters  &parameters;
-    const RunContext        context;
-    MPI_Comm                communicator;
+    const SceneParameters     &parameters;
+    const RunContext           context;
+    MPI_Comm                   communicator;
     dealii::ConditionalOStream screen;
-    Timings                 timings;
-    SceneState<dim>         scene;
-    NodalVector             displacement, external_force;
+    Timings                    timings;
+    SceneState<dim>            scene;
+    NodalVector                displacement, external_force;
 
     std::unique_ptr<History>          history;
     std::unique_ptr<FieldOutput<dim>> field_output;

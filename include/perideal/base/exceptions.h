@@ -63,7 +63,8 @@ namespace perideal
   public:
     explicit ComputationError(std::string problem)
       : message(std::move(problem))
-    {}
+    {
+    }
 
     const char *what() const noexcept override { return message.c_str(); }
 

@@ -30,7 +30,8 @@ namespace perideal
     Registry(std::string parameter, std::vector<std::pair<std::string, Item>> items)
       : parameter(std::move(parameter))
       , items(std::move(items))
-    {}
+    {
+    }
 
     std::vector<std::string> names() const
     {

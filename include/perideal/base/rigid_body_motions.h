@@ -51,9 +51,9 @@ namespace perideal
     static std::string describe(const std::vector<Coefficients> &motions);
 
   private:
-    dealii::Point<dim>                                         centre;
-    double                                                     size;
-    std::array<std::array<double, n_motions>, n_motions>       gram = {};
+    dealii::Point<dim>                                   centre;
+    double                                               size;
+    std::array<std::array<double, n_motions>, n_motions> gram = {};
   };
 } // namespace perideal
 

@@ -9,8 +9,8 @@
 /**
  * perideal: meshed peridynamics on deal.II.
  *
- * Units are SI throughout. A two-dimensional body has unit thickness: forces
- * are per metre of thickness, volumes are areas times one metre.
+ * Units are SI throughout. A two-dimensional body has a thickness: volumes are
+ * areas times thickness, forces those of the whole thickness.
  */
 namespace perideal
 {

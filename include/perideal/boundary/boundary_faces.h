@@ -15,7 +15,7 @@ namespace perideal
   struct BoundaryFace
   {
     /// Node of the cell.
-    LocalIndex                node;
+    LocalIndex                 node;
     dealii::types::boundary_id boundary;
     /// Centroid [m], unit outward normal at it.
     dealii::Point<dim>     centre;

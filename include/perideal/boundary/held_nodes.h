@@ -19,10 +19,10 @@ namespace perideal
     HeldNodes() = default;
 
     /// Every node with a face on a boundary that a condition holds.
-    HeldNodes(const std::vector<BoundaryFace<dim>>                               &faces,
-              const Loads<dim>                                                   &loads,
-              const std::vector<std::vector<dealii::types::boundary_id>>         &boundaries,
-              const LocalIndex                                                    n_nodes);
+    HeldNodes(const std::vector<BoundaryFace<dim>>                       &faces,
+              const Loads<dim>                                           &loads,
+              const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+              const LocalIndex                                            n_nodes);
 
     /// A component of a node held by a face of one condition. A node at a corner
     /// may have several entries for one component; they count with equal shares.
@@ -47,7 +47,8 @@ namespace perideal
     void set_nodal_values(const std::vector<dealii::Tensor<1, dim>> &values, NodalVector &displacement) const;
 
     /// Sum by condition of a nodal force over the held components [N]. Collective.
-    std::vector<dealii::Tensor<1, dim>> sum_by_condition(const NodalVector &force, MPI_Comm communicator) const;
+    std::vector<dealii::Tensor<1, dim>> sum_by_condition(const NodalVector &force,
+                                                         MPI_Comm           communicator) const;
 
     /// Sum of force times displacement over held components [J]. Collective.
     double work(const NodalVector &force, const NodalVector &displacement, MPI_Comm communicator) const;

@@ -80,9 +80,9 @@ namespace perideal
       std::array<int, dim> condition;
     };
 
-    Plane make_plane(const Mesh<dim>                                            &mesh,
-                     const std::vector<BoundaryFace<dim>>                       &faces,
-                     const dealii::types::boundary_id                            boundary) const;
+    Plane make_plane(const Mesh<dim>                      &mesh,
+                     const std::vector<BoundaryFace<dim>> &faces,
+                     const dealii::types::boundary_id      boundary) const;
     void  add_images(const Plane &plane, const unsigned int plane_number);
 
     NodeCloud<dim>     all;

@@ -37,9 +37,9 @@ namespace perideal
     void stiffness(const Cell &cell, const ElasticConstants &constants, dealii::FullMatrix<double> &matrix);
 
     /// Adds the nodal forces [N] of a force per volume [N/m^3].
-    void add_body_force(const Cell                                                                &cell,
+    void add_body_force(const Cell                                                              &cell,
                         const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> &body_force,
-                        dealii::Vector<double>                                                    &forces);
+                        dealii::Vector<double>                                                  &forces);
 
     /// Traction [Pa] at a boundary point with outward unit normal.
     using Traction =

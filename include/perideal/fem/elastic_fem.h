@@ -40,10 +40,10 @@ namespace perideal
     /// copy of the mesh refined globally @p refinements times. The mesh and the
     /// loads must outlive this object.
     /// @throws InputError when a condition names a boundary the mesh has not.
-    ElasticFem(const Mesh<dim>    &mesh,
-               const Loads<dim>   &loads,
-               const unsigned int  degree      = 1,
-               const unsigned int  refinements = 0);
+    ElasticFem(const Mesh<dim>   &mesh,
+               const Loads<dim>  &loads,
+               const unsigned int degree      = 1,
+               const unsigned int refinements = 0);
     ~ElasticFem();
 
     /// Distributes unknowns, sets Dirichlet and hanging-node rows at @p time,

@@ -33,7 +33,8 @@ namespace perideal
       /// the force of families that have a negative wh (end of section 3.3).
       /// Not the gradient of W.
       paper,
-      /// The gradient of W, with wd made non-negative where it is not.
+      /// The gradient of W, with wd made non-negative where it is not; where no
+      /// non-negative wd meets the conditions, the spherical ones scaled to their trace.
       energy
     };
 

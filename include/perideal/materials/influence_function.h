@@ -31,7 +31,13 @@ namespace perideal
     /// Weighted volume of a full sphere, in 2-D of a disc of unit thickness:
     /// m = int omega |xi|^2 dV (XOSB eq. 25).
     template <int dim>
-    double weighted_volume(const double horizon) const;
+    double weighted_volume(const double horizon) const
+    {
+      double power = horizon * horizon;
+      for (int d = 0; d < dim; ++d)
+        power *= horizon;
+      return unit_weighted_volume[dim - 2] * power;
+    }
 
   private:
     double (*function)(const double);
@@ -39,6 +45,8 @@ namespace perideal
     /// that bonds longer than the node's own horizon (union rule) count; the
     /// others have no scale but the node's own.
     bool fades_out;
+    /// Weighted volumes at horizon 1, in 2-D and 3-D.
+    double unit_weighted_volume[2];
   };
 } // namespace perideal
 

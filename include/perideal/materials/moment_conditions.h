@@ -44,23 +44,18 @@ namespace perideal
     /// Returns the largest miss of a condition, relative to r.
     double correct(std::vector<double> &weights) const;
 
-    /// As correct(), with the bounds w_j >= 0. Where no such weights exist the
-    /// result is the bounded least-squares compromise.
-    double correct_nonnegative(const std::vector<double> &spherical, std::vector<double> &weights) const;
+    /// As correct(), with the bounds w_j >= 0: a small quadratic programme.
+    /// Returns false when no such weights exist; @p weights are of no use then.
+    bool correct_nonnegative(const std::vector<double> &spherical, std::vector<double> &weights) const;
 
   private:
     using Weights = Eigen::Map<Eigen::ArrayXd>;
 
     Vector miss(const Eigen::Ref<const Eigen::ArrayXd> &weights) const;
     Vector solve(const Vector &right_hand_side) const;
-    Vector bounded_multipliers(const Eigen::Ref<const Eigen::ArrayXd> &spherical,
-                               const Vector                           &target,
-                               const double                            regularisation,
-                               Vector                                  multipliers) const;
-
     /// Monomials over horizon^2 by member (row), volumes of the members.
     Eigen::Matrix<double, Eigen::Dynamic, n_conditions> monomials;
-    Eigen::ArrayXd                                       volume;
+    Eigen::ArrayXd                                      volume;
     /// Right-hand side over horizon^2.
     Vector target;
     double horizon_square = 1;

@@ -19,8 +19,8 @@ namespace perideal
    * @throws InputError naming the file, the parameter or the cell.
    */
   template <int dim>
-  std::unique_ptr<Mesh<dim>> create_mesh(const MeshParameters &parameters, MPI_Comm communicator,
-                                         const std::string &scene_directory);
+  std::unique_ptr<Mesh<dim>>
+  create_mesh(const MeshParameters &parameters, MPI_Comm communicator, const std::string &scene_directory);
 
   /**
    * Fills @p copy with the coarse mesh below @p mesh, with its boundary and
@@ -29,7 +29,8 @@ namespace perideal
    * serial or distributed on any communicator; collective on the latter.
    */
   template <int dim>
-  void copy_refined(const Mesh<dim> &mesh, const unsigned int further_refinements,
+  void copy_refined(const Mesh<dim>            &mesh,
+                    const unsigned int          further_refinements,
                     dealii::Triangulation<dim> &copy);
 } // namespace perideal
 

@@ -45,8 +45,8 @@ namespace perideal
                                         const std::string               &meaning);
 
   /// Lengths [m] of the parameters, or @p defaults where they give none; as cell_counts().
-  std::vector<double> lengths(const MeshParameters &parameters, const std::vector<double> &defaults,
-                              const std::string &meaning);
+  std::vector<double>
+  lengths(const MeshParameters &parameters, const std::vector<double> &defaults, const std::string &meaning);
 } // namespace perideal
 
 #endif

@@ -15,14 +15,13 @@ namespace perideal
   {
   public:
     explicit GmshFields(const std::string_view line)
-        : rest(line)
+      : rest(line)
     {
     }
 
     /// False where the next word is not a number of this type.
     template <typename Number>
-    bool
-    read(Number &value)
+    bool read(Number &value)
     {
       skip_blanks();
       const auto result = std::from_chars(rest.data(), rest.data() + rest.size(), value);
@@ -32,19 +31,14 @@ namespace perideal
       return rest.empty() || rest.front() == ' ' || rest.front() == '\t';
     }
 
-    bool
-    at_end()
+    bool at_end()
     {
       skip_blanks();
       return rest.empty();
     }
 
   private:
-    void
-    skip_blanks()
-    {
-      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    }
+    void skip_blanks() { rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size())); }
 
     std::string_view rest;
   };
@@ -55,8 +49,8 @@ namespace perideal
   public:
     /// The arguments must outlive the object.
     GmshLines(const std::string &text, const std::string &filename)
-        : text(text)
-        , filename(filename)
+      : text(text)
+      , filename(filename)
     {
     }
 
@@ -64,25 +58,16 @@ namespace perideal
     bool next();
 
     /// The line, without blanks at its ends.
-    std::string_view
-    line() const
-    {
-      return current;
-    }
+    std::string_view line() const { return current; }
 
-    std::size_t
-    line_number() const
-    {
-      return number;
-    }
+    std::size_t line_number() const { return number; }
 
     /// The next line, which must be an entry of the section.
     std::string_view entry(const std::string &section);
 
     /// Reads the next entry's first words as numbers.
     template <typename... Numbers>
-    void
-    read(const std::string &section, Numbers &...values)
+    void read(const std::string &section, Numbers &...values)
     {
       GmshFields fields(entry(section));
       if (!(fields.read(values) && ...))

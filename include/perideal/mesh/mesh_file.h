@@ -25,8 +25,10 @@ namespace perideal
    * @param dim dimension in which a `.geo` is meshed
    * @throws InputError on all ranks alike.
    */
-  MeshFile load_mesh_file(const std::string &filename, const std::string &scene_directory, const int dim,
-                          MPI_Comm communicator);
+  MeshFile load_mesh_file(const std::string &filename,
+                          const std::string &scene_directory,
+                          const int          dim,
+                          MPI_Comm           communicator);
 
   /// Runs the program gmsh on a `.geo` file and returns the mesh as `.msh` text.
   /// @throws InputError with gmsh's first error where it is missing or fails.

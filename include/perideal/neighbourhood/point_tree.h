@@ -42,10 +42,13 @@ namespace perideal
     /// The arrays must outlive the tree. @param horizon in [m], as long as @p position.
     PointTree(const std::vector<dealii::Point<dim>> &position, const std::vector<double> &horizon);
 
-    LocalIndex n_leaves() const { return levels.empty() ? 0 : static_cast<LocalIndex>(levels.front().size()); }
+    LocalIndex n_leaves() const
+    {
+      return levels.empty() ? 0 : static_cast<LocalIndex>(levels.front().size());
+    }
     const HorizonBox<dim> &leaf_box(const LocalIndex leaf) const { return levels.front()[leaf]; }
-    LocalIndex leaf_begin(const LocalIndex leaf) const { return leaf * leaf_size; }
-    LocalIndex leaf_end(const LocalIndex leaf) const;
+    LocalIndex             leaf_begin(const LocalIndex leaf) const { return leaf * leaf_size; }
+    LocalIndex             leaf_end(const LocalIndex leaf) const;
 
     /// Leaves that may interact with a box, in ascending order, into @p result.
     void find_leaves(const HorizonBox<dim> &box, std::vector<LocalIndex> &result) const;

@@ -11,7 +11,8 @@ namespace perideal
   /// This rank's nodes whose cells have a face on the boundary, in ascending
   /// order; a cell that meets the boundary in a vertex or an edge only does not count.
   template <int dim>
-  std::vector<LocalIndex> nodes_on_boundary(const Mesh<dim> &mesh, const Nodes<dim> &nodes,
+  std::vector<LocalIndex> nodes_on_boundary(const Mesh<dim>                 &mesh,
+                                            const Nodes<dim>                &nodes,
                                             const dealii::types::boundary_id boundary);
 } // namespace perideal
 

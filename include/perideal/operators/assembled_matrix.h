@@ -14,7 +14,8 @@ namespace perideal
    * carry a diagonal of the size of the others. Collective.
    */
   template <int dim>
-  void assemble_matrix(const ConstrainedOperator<dim> &system, dealii::TrilinosWrappers::SparseMatrix &matrix);
+  void assemble_matrix(const ConstrainedOperator<dim>         &system,
+                       dealii::TrilinosWrappers::SparseMatrix &matrix);
 } // namespace perideal
 
 #endif

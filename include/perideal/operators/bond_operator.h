@@ -76,8 +76,8 @@ namespace perideal
   /// @param moduli by material id; every material of the nodes is listed.
   template <int dim>
   std::unique_ptr<BondOperator<dim>>
-  create_bond_operator(const std::shared_ptr<const Families<dim>>                   &families,
-                       LinearModel<dim>                                             &model,
+  create_bond_operator(const std::shared_ptr<const Families<dim>>                    &families,
+                       LinearModel<dim>                                              &model,
                        const std::function<Moduli(const dealii::types::material_id)> &moduli);
 } // namespace perideal
 

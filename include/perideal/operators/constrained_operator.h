@@ -34,9 +34,8 @@ namespace perideal
 
     /// Right-hand side for the correction to @p displacement, whose held
     /// components have their values: external minus internal force, 0 where held.
-    void residual(NodalVector       &result,
-                  const NodalVector &external_force,
-                  const NodalVector &displacement) const;
+    void
+    residual(NodalVector &result, const NodalVector &external_force, const NodalVector &displacement) const;
 
     /// dim x dim blocks of the diagonal, held rows and columns replaced by the identity.
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const;
@@ -48,12 +47,12 @@ namespace perideal
     void initialize(NodalVector &vector) const { vector.reinit(partitioner); }
     void initialize_all(NodalVector &vector) const { bonds->initialize(vector); }
 
-    LocalIndex                 n_nodes() const { return mirror->n_real(); }
-    GlobalIndex                first_global() const { return first_global_node; }
-    GlobalIndex                n_global() const { return n_global_nodes; }
-    MPI_Comm                   communicator() const { return mirror->nodes().communicator; }
-    const BondOperator<dim>   &bond_operator() const { return *bonds; }
-    const MirrorLayer<dim>    &mirror_layer() const { return *mirror; }
+    LocalIndex               n_nodes() const { return mirror->n_real(); }
+    GlobalIndex              first_global() const { return first_global_node; }
+    GlobalIndex              n_global() const { return n_global_nodes; }
+    MPI_Comm                 communicator() const { return mirror->nodes().communicator; }
+    const BondOperator<dim> &bond_operator() const { return *bonds; }
+    const MirrorLayer<dim>  &mirror_layer() const { return *mirror; }
 
     /// Applications of vmult() so far.
     unsigned int n_applications() const { return applications; }

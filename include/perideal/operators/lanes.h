@@ -36,11 +36,12 @@ namespace perideal
   }
 
   /// The sums over the entries of a, b, c and d.
-  PERIDEAL_INLINE void sum_of_each(Lanes &result, const Lanes &a, const Lanes &b, const Lanes &c, const Lanes &d)
+  PERIDEAL_INLINE void
+  sum_of_each(Lanes &result, const Lanes &a, const Lanes &b, const Lanes &c, const Lanes &d)
   {
     const Lanes ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const Lanes cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    result         = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    result = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
   }
 
   PERIDEAL_INLINE double sum_of_all(const Lanes &a)

@@ -15,7 +15,8 @@ namespace perideal
   /// Largest eigenvalue of the preconditioned operator, from ten Lanczos steps,
   /// which underestimate it by a few per cent, times 1.1. Collective.
   template <int dim, typename Preconditioner>
-  double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system, const Preconditioner &preconditioner)
+  double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system,
+                                     const Preconditioner           &preconditioner)
   {
     NodalVector source, solution;
     system.initialize(source);

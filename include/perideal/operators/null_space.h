@@ -20,10 +20,10 @@ namespace perideal
   public:
     NullSpace() = default;
 
-    NullSpace(const NodeCloud<dim>                                              &nodes,
-              const RigidBodyMotions<dim>                                       &motions,
-              const std::vector<typename RigidBodyMotions<dim>::Coefficients>   &free,
-              const NodalVector                                                 &layout);
+    NullSpace(const NodeCloud<dim>                                            &nodes,
+              const RigidBodyMotions<dim>                                     &motions,
+              const std::vector<typename RigidBodyMotions<dim>::Coefficients> &free,
+              const NodalVector                                               &layout);
 
     bool empty() const { return basis.empty(); }
 
@@ -49,7 +49,8 @@ namespace perideal
     ProjectedPreconditioner(const Preconditioner &preconditioner, const NullSpace<dim> &null_space)
       : preconditioner(preconditioner)
       , null_space(null_space)
-    {}
+    {
+    }
 
     void vmult(NodalVector &destination, const NodalVector &source) const
     {

@@ -26,7 +26,8 @@ namespace perideal
    * everywhere and so is the field. Collective.
    */
   template <int dim>
-  FieldErrors field_errors(const Nodes<dim> &nodes, const std::vector<dealii::Tensor<1, dim>> &field,
+  FieldErrors field_errors(const Nodes<dim>                          &nodes,
+                           const std::vector<dealii::Tensor<1, dim>> &field,
                            const std::vector<dealii::Tensor<1, dim>> &reference);
 
   /**
@@ -35,7 +36,8 @@ namespace perideal
    * as in field_errors(). Collective.
    */
   template <int dim>
-  std::array<double, dim> profile_errors(const Nodes<dim> &nodes, const std::vector<LocalIndex> &selected,
+  std::array<double, dim> profile_errors(const Nodes<dim>                          &nodes,
+                                         const std::vector<LocalIndex>             &selected,
                                          const std::vector<dealii::Tensor<1, dim>> &field,
                                          const std::vector<dealii::Tensor<1, dim>> &reference);
 } // namespace perideal

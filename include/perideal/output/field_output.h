@@ -39,8 +39,10 @@ namespace perideal
   public:
     /// Collective. The mesh must live longer and stay as it is.
     /// @throws InputError when the directory cannot be written.
-    FieldOutput(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::string &directory,
-                const OutputSteps steps);
+    FieldOutput(const Mesh<dim>   &mesh,
+                const Nodes<dim>  &nodes,
+                const std::string &directory,
+                const OutputSteps  steps);
 
     /// Takes a vector field, one value for each of this rank's nodes, into the
     /// next write(). @param name letters, digits and underscores.

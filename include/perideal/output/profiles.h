@@ -32,22 +32,15 @@ namespace perideal
     using NamedField = std::pair<std::string, std::vector<dealii::Tensor<1, dim>>>;
 
     /// Collective.
-    BoundaryProfile(const Mesh<dim> &mesh, const Nodes<dim> &nodes,
+    BoundaryProfile(const Mesh<dim>                 &mesh,
+                    const Nodes<dim>                &nodes,
                     const dealii::types::boundary_id boundary);
 
     /// Whether the boundary goes round its centre.
-    bool
-    is_closed() const
-    {
-      return closed;
-    }
+    bool is_closed() const { return closed; }
 
     /// This rank's nodes whose cells have a face on the boundary.
-    const std::vector<LocalIndex> &
-    local_nodes() const
-    {
-      return selected;
-    }
+    const std::vector<LocalIndex> &local_nodes() const { return selected; }
 
     /// Writes a CSV file: "angle [deg]" (0 to 360) or "s [m]" (from the lower
     /// end of the boundary), x, y, z [m], then NAME_u_x, NAME_u_y, ... of each

@@ -72,10 +72,10 @@ namespace perideal
 
     /// Traction vector [Pa] of a condition at a boundary point with outward
     /// unit normal: the traction minus pressure times normal.
-    static dealii::Tensor<1, dim> traction(const BoundaryCondition<dim>   &condition,
-                                           const dealii::Point<dim>       &point,
-                                           const dealii::Tensor<1, dim>   &normal,
-                                           const double                    time);
+    static dealii::Tensor<1, dim> traction(const BoundaryCondition<dim> &condition,
+                                           const dealii::Point<dim>     &point,
+                                           const dealii::Tensor<1, dim> &normal,
+                                           const double                  time);
 
     /// Body force [N/m^3].
     dealii::Tensor<1, dim> body_force_at(const dealii::Point<dim> &point, const double time) const;

@@ -30,7 +30,8 @@ TEST(Registry, FindsAndSuggests)
 {
   const Registry<int> numbers("Some/Number", {{"one", 1}, {"two", 2}, {"twelve", 12}});
   EXPECT_EQ(numbers.get("two"), 2);
-  test::expect_input_error([&] { numbers.get("twelv"); }, {"Some/Number", "one | two | twelve", "did you mean: twelve"});
+  test::expect_input_error([&] { numbers.get("twelv"); },
+                           {"Some/Number", "one | two | twelve", "did you mean: twelve"});
 }
 
 TEST(Registry, DoesNotSuggestWhatIsFarOff)

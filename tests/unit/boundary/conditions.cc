@@ -55,7 +55,10 @@ namespace
     return text;
   }
 
-  double sum(const double value) { return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD); }
+  double sum(const double value)
+  {
+    return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD);
+  }
 } // namespace
 
 TEST(BoundaryFaces, CloseTheBody)
@@ -126,9 +129,9 @@ TEST(HeldNodes, ReactionsAreSummedByCondition)
 
 TEST(NodalForces, ResultantsAreExact)
 {
-  auto pulled     = condition("pull", "1");
-  pulled.traction = {{"2", "3*y", ""}};
-  auto pressed    = condition("press", "3");
+  auto pulled      = condition("pull", "1");
+  pulled.traction  = {{"2", "3*y", ""}};
+  auto pressed     = condition("press", "3");
   pressed.pressure = "4*t";
   const Scene scene({pulled, pressed});
   NodalVector force = scene.field();
@@ -161,8 +164,7 @@ TEST(MirrorLayer, ImagesStandBehindThePlaneAndMoveAsTold)
     }
   mirror.set_time(scene.loads, 2.);
   dealii::IndexSet owned(2 * mirror.nodes().n_global);
-  owned.add_range(2 * mirror.nodes().first_global,
-                  2 * (mirror.nodes().first_global + mirror.nodes().size()));
+  owned.add_range(2 * mirror.nodes().first_global, 2 * (mirror.nodes().first_global + mirror.nodes().size()));
   NodalVector extended(owned, MPI_COMM_WORLD);
   mirror.extend(u, true, extended);
   for (LocalIndex i = 0; i < mirror.nodes().size(); ++i)

@@ -17,7 +17,8 @@ namespace perideal::test
     public:
       Exact()
         : dealii::Function<2>(2)
-      {}
+      {
+      }
       double value(const dealii::Point<2> &p, const unsigned int component) const override
       {
         using dealii::numbers::PI;
@@ -68,9 +69,18 @@ namespace perideal::test
     }
 
     // The asymptotic orders are 2 and 3; these meshes reach them to a few hundredths.
-    TEST(Convergence, linear_elements_are_of_second_order) { EXPECT_NEAR(order(1), 2., 0.1); }
-    TEST(Convergence, quadratic_elements_are_of_third_order) { EXPECT_GT(order(2), 2.9); }
+    TEST(Convergence, linear_elements_are_of_second_order)
+    {
+      EXPECT_NEAR(order(1), 2., 0.1);
+    }
+    TEST(Convergence, quadratic_elements_are_of_third_order)
+    {
+      EXPECT_GT(order(2), 2.9);
+    }
 
-    TEST(Convergence, error_is_small) { EXPECT_LT(l2_error(32, 2), 2e-5); }
+    TEST(Convergence, error_is_small)
+    {
+      EXPECT_LT(l2_error(32, 2), 2e-5);
+    }
   } // namespace
 } // namespace perideal::test

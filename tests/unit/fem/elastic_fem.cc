@@ -45,9 +45,9 @@ namespace perideal::test
     {
       const double E = young_modulus, nu = poisson_ratio;
       EXPECT_LT(uniaxial_error<2>(PlaneAssumption::plane_stress, pull / E, -nu * pull / E), tolerance);
-      EXPECT_LT(uniaxial_error<2>(
-                  PlaneAssumption::plane_strain, (1 - nu * nu) * pull / E, -nu * (1 + nu) * pull / E),
-                tolerance);
+      EXPECT_LT(
+        uniaxial_error<2>(PlaneAssumption::plane_strain, (1 - nu * nu) * pull / E, -nu * (1 + nu) * pull / E),
+        tolerance);
       EXPECT_LT(uniaxial_error<3>(PlaneAssumption::solid, pull / E, -nu * pull / E), tolerance);
     }
 
@@ -60,8 +60,9 @@ namespace perideal::test
       const Loads<2> loads = uniaxial_tension<2>();
       ElasticFem<2>  fem(mesh, loads);
       // Without lateral contraction the halves do not disturb one another.
-      fem.assemble({{3, {100e9, 0., PlaneAssumption::plane_stress}}, {7, {200e9, 0., PlaneAssumption::plane_stress}}},
-                   0.);
+      fem.assemble(
+        {{3, {100e9, 0., PlaneAssumption::plane_stress}}, {7, {200e9, 0., PlaneAssumption::plane_stress}}},
+        0.);
       fem.solve(1e-13);
       const auto exact = [](const dealii::Point<2> &point) {
         dealii::Tensor<1, 2> value;
@@ -134,7 +135,8 @@ namespace perideal::test
       conditions.push_back(traction("right", {"1e8", "", ""}));
       const Loads<dim> loads = make_loads<dim>(conditions);
       ElasticFem<dim>  fem(mesh, loads);
-      fem.assemble({{0, elastic_constants(dim == 2 ? PlaneAssumption::plane_stress : PlaneAssumption::solid)}}, 0.);
+      fem.assemble(
+        {{0, elastic_constants(dim == 2 ? PlaneAssumption::plane_stress : PlaneAssumption::solid)}}, 0.);
       EXPECT_EQ(fem.n_pins(), expected_pins);
       fem.solve(1e-13);
 
@@ -144,11 +146,12 @@ namespace perideal::test
       for (unsigned int a = 0; a < points.size(); ++a)
         for (unsigned int b = 0; b < a; ++b)
           {
-            const dealii::Tensor<1, dim> arm = points[a] - points[b];
+            const dealii::Tensor<1, dim> arm   = points[a] - points[b];
             double                       exact = arm[0] * arm[0];
             for (unsigned int d = 1; d < dim; ++d)
               exact -= poisson_ratio * arm[d] * arm[d];
-            EXPECT_NEAR((values[a] - values[b]) * arm, pull / young_modulus * exact, tolerance * pull / young_modulus);
+            EXPECT_NEAR(
+              (values[a] - values[b]) * arm, pull / young_modulus * exact, tolerance * pull / young_modulus);
           }
     }
 
@@ -158,6 +161,27 @@ namespace perideal::test
       pinned_body_is_right_up_to_a_rigid_motion<3>({}, 6);
       pinned_body_is_right_up_to_a_rigid_motion<2>({displacement("bottom", {"", "0", ""})}, 1);
       pinned_body_is_right_up_to_a_rigid_motion<3>({displacement("bottom", {"", "0", ""})}, 3);
+    }
+
+    std::vector<dealii::Tensor<1, 2>> pinned_displacements(MPI_Comm communicator)
+    {
+      Mesh<2> mesh(communicator);
+      make_unit_box(mesh, 6);
+      distort(mesh);
+      refine_locally(mesh, 1);
+      const Loads<2> loads =
+        make_loads<2>({traction("left", {"-1e8", "", ""}), traction("right", {"1e8", "", ""})});
+      ElasticFem<2> fem(mesh, loads);
+      fem.assemble(one_material<2>(), 0.);
+      fem.solve(1e-13);
+      return fem.evaluate(some_points<2>());
+    }
+
+    TEST(ElasticFem, pins_do_not_depend_on_the_number_of_ranks)
+    {
+      const auto alone = pinned_displacements(MPI_COMM_SELF), together = pinned_displacements(MPI_COMM_WORLD);
+      for (unsigned int i = 0; i < alone.size(); ++i)
+        EXPECT_LT((alone[i] - together[i]).norm(), tolerance * pull / young_modulus);
     }
 
     template <int dim>
@@ -170,8 +194,8 @@ namespace perideal::test
       if (dim == 2)
         mesh.thickness = 0.02;
       LoadParameters parameters;
-      parameters.conditions = {displacement("left", {"0", "0", dim == 3 ? "0" : ""}),
-                               traction("right", {"1e6*y", "-2e6", ""})};
+      parameters.conditions                 = {displacement("left", {"0", "0", dim == 3 ? "0" : ""}),
+                                               traction("right", {"1e6*y", "-2e6", ""})};
       parameters.conditions.back().pressure = "3e6";
       parameters.body_force                 = {{"", "-7e5*x", ""}};
       const Loads<dim> loads(parameters);

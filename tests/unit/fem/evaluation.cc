@@ -2,6 +2,7 @@
 #include "fem_test.h"
 
 #include <perideal/base/exceptions.h>
+#include <perideal/mesh/create_mesh.h>
 
 namespace perideal::test
 {
@@ -59,9 +60,9 @@ namespace perideal::test
             centroids[cell->active_cell_index()] = cell->center();
             owned.push_back(cell->center());
           }
-      const auto in_cells = fem->evaluate_in_cells(centroids);
-      const auto searched = fem->evaluate(owned);
-      unsigned int k = 0;
+      const auto   in_cells = fem->evaluate_in_cells(centroids);
+      const auto   searched = fem->evaluate(owned);
+      unsigned int k        = 0;
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           {
@@ -76,6 +77,37 @@ namespace perideal::test
       // Displacement gradients are of the order of 1e-2 here.
       EXPECT_LT((values[0] - values[1]).norm(), 3e-5);
       EXPECT_GT(values[1].norm(), 1e-3);
+    }
+
+    // Middles of cells are vertices of the refined copy where it is not curved.
+    TEST(EvaluationOnReference, is_exact_for_a_linear_field_on_a_curved_mesh)
+    {
+      MeshParameters parameters;
+      parameters.generator = "plate with hole";
+      parameters.cells     = {4, 3};
+      const auto mesh      = create_mesh<2>(parameters, MPI_COMM_WORLD, "");
+      // Every boundary, the hole included, moves with the linear field.
+      std::vector<BoundaryConditionText> conditions;
+      for (const auto &boundary : mesh->boundary_names)
+        conditions.push_back(displacement(boundary.first, {"1e-3*(x+2*y)", "1e-3*(3*x-y)", ""}));
+      const Loads<2>      loads = make_loads<2>(conditions);
+      ConstantsByMaterial constants;
+      for (const auto material : mesh->material_ids)
+        constants[material] = elastic_constants(PlaneAssumption::plane_stress);
+      ElasticFem<2> fem(*mesh, loads, 2, 2);
+      fem.assemble(constants, 0.);
+      fem.solve(1e-12);
+
+      std::vector<dealii::Point<2>> points;
+      for (const auto &cell : mesh->triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          points.push_back(cell->center());
+      const auto values = fem.evaluate(points);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          EXPECT_NEAR(values[i][0], 1e-3 * (points[i][0] + 2 * points[i][1]), 1e-11);
+          EXPECT_NEAR(values[i][1], 1e-3 * (3 * points[i][0] - points[i][1]), 1e-11);
+        }
     }
 
     TEST_F(Evaluation, points_far_outside_are_an_error)

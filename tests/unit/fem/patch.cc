@@ -47,9 +47,10 @@ namespace perideal::test
         dealii::SymmetricTensor<2, dim> strain;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
-            strain[a][b] = 1e-3 * ((a == b ? a + 1. : 0.) + 0.25 * ((a + 1) % dim == b) + 0.25 * ((b + 1) % dim == a));
+            strain[a][b] =
+              1e-3 * ((a == b ? a + 1. : 0.) + 0.25 * ((a + 1) % dim == b) + 0.25 * ((b + 1) % dim == a));
         const ElasticConstants constants = one_material<dim>().at(0);
-        const auto             stress    = constants.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
+        const auto stress = constants.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
                             2. * constants.shear_modulus() * strain;
 
         std::vector<BoundaryConditionText> conditions = {displacement("left", expressions())};

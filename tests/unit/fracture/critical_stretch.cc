@@ -11,10 +11,10 @@ TEST(CriticalStretch, AgreesWithTheFormulasInEAndNu)
 {
   // The second forms of TIPD eqs. (43), with the printed G read as G0, and (56).
   const double E = 72e9, nu = 0.22, G0 = 135., d = 3e-3, pi = std::acos(-1.);
-  EXPECT_NEAR(ordinary_critical_stretch({E, nu, PlaneAssumption::plane_stress}, G0, d),
-              std::sqrt(9 * pi * pi * (1 + nu) * (1 - nu) * G0 /
-                        ((8 * (3 * nu - 1) + 27 * pi * (1 - nu)) * E * d)),
-              1e-15);
+  EXPECT_NEAR(
+    ordinary_critical_stretch({E, nu, PlaneAssumption::plane_stress}, G0, d),
+    std::sqrt(9 * pi * pi * (1 + nu) * (1 - nu) * G0 / ((8 * (3 * nu - 1) + 27 * pi * (1 - nu)) * E * d)),
+    1e-15);
   EXPECT_NEAR(ordinary_critical_stretch({E, nu, PlaneAssumption::solid}, G0, d),
               std::sqrt(1536 * (1 + nu) * (1 - 2 * nu) * G0 / ((2061 - 3636 * nu) * E * d)),
               1e-15);

@@ -31,7 +31,7 @@ namespace
 
 TEST(CopyRefined, FollowsTheHole)
 {
-  const auto                                      mesh = generate<2>("plate with hole", { 2, 2 }, {}, 1);
+  const auto                                      mesh = generate<2>("plate with hole", {2, 2}, {}, 1);
   dealii::parallel::distributed::Triangulation<2> copy(MPI_COMM_WORLD);
   copy_refined(*mesh, 2, copy);
   EXPECT_EQ(copy.n_global_active_cells(), 32u * 64);
@@ -46,32 +46,32 @@ TEST(CopyRefined, FollowsTheHole)
 
 TEST(CopyRefined, CopiesSpaceIntoASerialTriangulation)
 {
-  const auto               mesh = generate<3>("plate with hole", { 1, 1, 1 }, { 1., 0.2 });
+  const auto               mesh = generate<3>("plate with hole", {1, 1, 1}, {1., 0.2});
   dealii::Triangulation<3> copy;
   copy_refined(*mesh, 1, copy);
   EXPECT_EQ(copy.n_active_cells(), 64u);
-  EXPECT_NEAR(measure(copy) / dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), 0.2 * plate_area(16),
-              1e-13);
+  EXPECT_NEAR(
+    measure(copy) / dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), 0.2 * plate_area(16), 1e-13);
 }
 
 TEST(CopyRefined, KeepsMaterials)
 {
   const TemporaryDirectory directory;
-  const auto               mesh = read<2>(
-      directory.write("mesh.msh", msh_22({}, two_squares, { "3 3 2 3 1 1 2 3 4", "4 3 2 4 1 2 5 6 3" })));
+  const auto               mesh =
+    read<2>(directory.write("mesh.msh", msh_22({}, two_squares, {"3 3 2 3 1 1 2 3 4", "4 3 2 4 1 2 5 6 3"})));
   dealii::parallel::distributed::Triangulation<2> copy(MPI_COMM_WORLD);
   copy_refined(*mesh, 2, copy);
   EXPECT_EQ(copy.n_global_active_cells(), 32u);
   for (const auto &cell : copy.active_cell_iterators())
     if (cell->is_locally_owned())
-    {
-      EXPECT_EQ(cell->material_id(), cell->center()[0] < 1. ? 3u : 4u);
-    }
+      {
+        EXPECT_EQ(cell->material_id(), cell->center()[0] < 1. ? 3u : 4u);
+      }
 }
 
 TEST(CreateMesh, HigherMappingsSeeTheCircle)
 {
-  const auto                mesh = generate<2>("plate with hole", { 2, 2 });
+  const auto                mesh = generate<2>("plate with hole", {2, 2});
   const dealii::MappingQ<2> mapping(4);
   const double              area = dealii::GridTools::volume(mesh->triangulation, mapping);
   // degree four on arcs of 22.5 degrees; the polygon is off by 8e-4
@@ -92,15 +92,15 @@ TEST(CreateMesh, CylindersOfFilesAreFollowed)
 
   parameters.cylinders["hole"] = dealii::Point<2>(0.01, 0.);
   expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, ""); },
-                     { "Mesh/Cylinders", "between 0.09", "not a circular cylinder" });
-  parameters.cylinders = { { "holes", dealii::Point<2>() } };
+                     {"Mesh/Cylinders", "between 0.09", "not a circular cylinder"});
+  parameters.cylinders = {{"holes", dealii::Point<2>()}};
   expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, ""); },
-                     { "Mesh/Cylinders", "did you mean: hole" });
+                     {"Mesh/Cylinders", "did you mean: hole"});
 }
 
 TEST(CreateMesh, MayBeRefinedLocally)
 {
-  const auto mesh = generate<2>("plate with hole", { 4, 3 });
+  const auto mesh = generate<2>("plate with hole", {4, 3});
   for (const auto &cell : mesh->triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && cell->center().norm() < 0.3)
       cell->set_refine_flag();

@@ -12,7 +12,7 @@ using namespace perideal::test;
 
 TEST(Box, HasItsSizeAndSides)
 {
-  const auto mesh = generate<2>("box", { 4, 3 }, { 2., 0.5 });
+  const auto mesh = generate<2>("box", {4, 3}, {2., 0.5});
   EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 12u);
   // sums of a few products of doubles
   EXPECT_NEAR(measure(mesh->triangulation), 1., 1e-14);
@@ -25,31 +25,31 @@ TEST(Box, HasItsSizeAndSides)
 
 TEST(Box, NamesTheSidesInSpace)
 {
-  const auto mesh = generate<3>("box", { 2, 1, 3 }, { 2., 3., 5. }, 1);
+  const auto mesh = generate<3>("box", {2, 1, 3}, {2., 3., 5.}, 1);
   EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 48u);
   EXPECT_NEAR(measure(mesh->triangulation), 30., 1e-12);
   for (const auto &cell : mesh->triangulation.active_cell_iterators())
     if (cell->is_locally_owned())
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary())
-        {
-          const std::string name = mesh->boundary_name(face->boundary_id());
-          const auto        x    = face->center();
-          EXPECT_TRUE((name == "left" && x[0] == 0.) || (name == "right" && x[0] == 2.)
-                      || (name == "bottom" && x[1] == 0.) || (name == "top" && x[1] == 3.)
-                      || (name == "back" && x[2] == 0.) || (name == "front" && x[2] == 5.))
+          {
+            const std::string name = mesh->boundary_name(face->boundary_id());
+            const auto        x    = face->center();
+            EXPECT_TRUE((name == "left" && x[0] == 0.) || (name == "right" && x[0] == 2.) ||
+                        (name == "bottom" && x[1] == 0.) || (name == "top" && x[1] == 3.) ||
+                        (name == "back" && x[2] == 0.) || (name == "front" && x[2] == 5.))
               << name << " at " << x;
-        }
+          }
 }
 
 TEST(PlateWithHole, HasTheCellsAndAreaOfItsPolygon)
 {
-  const auto mesh = generate<2>("plate with hole", { 30, 32 });
+  const auto mesh = generate<2>("plate with hole", {30, 32});
   EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 7680u);
   EXPECT_EQ(mesh->description, "plate with hole, 7,680 quads");
   // round-off of 7680 summands
   EXPECT_NEAR(measure(mesh->triangulation), plate_area(240), 1e-13);
-  for (const char *side : { "left", "right", "bottom", "top" })
+  for (const char *side : {"left", "right", "bottom", "top"})
     EXPECT_NEAR(boundary_measure(*mesh, side), 1., 1e-13) << side;
   EXPECT_NEAR(boundary_measure(*mesh, "hole"), 240 * 0.2 * std::sin(dealii::numbers::PI / 240), 1e-13);
 }
@@ -62,17 +62,17 @@ TEST(PlateWithHole, DefaultsToTheCellsOfThePaper)
 TEST(PlateWithHole, RefinementFollowsTheCircle)
 {
   for (unsigned int refinements = 0; refinements < 4; ++refinements)
-  {
-    const auto mesh = generate<2>("plate with hole", { 2, 2 }, {}, refinements);
-    EXPECT_NEAR(measure(mesh->triangulation), plate_area(16u << refinements), 1e-13);
-  }
+    {
+      const auto mesh = generate<2>("plate with hole", {2, 2}, {}, refinements);
+      EXPECT_NEAR(measure(mesh->triangulation), plate_area(16u << refinements), 1e-13);
+    }
 }
 
 TEST(PlateWithHole, GradesGeometrically)
 {
   MeshParameters parameters;
   parameters.generator = "plate with hole";
-  parameters.cells     = { 1, 4 };
+  parameters.cells     = {1, 4};
   parameters.grading   = 16.;
   const auto mesh      = create_mesh<2>(parameters, MPI_COMM_WORLD, "");
   // along the x axis the cells grow by 16^(1/4) = 2: 1 + 2 + 4 + 8 = 15 parts of 0.4
@@ -82,32 +82,32 @@ TEST(PlateWithHole, GradesGeometrically)
       on_axis.insert(vertex[0]);
   ASSERT_EQ(on_axis.size(), 5u);
   auto x = on_axis.begin();
-  for (const double part : { 0., 1., 3., 7., 15. })
+  for (const double part : {0., 1., 3., 7., 15.})
     EXPECT_NEAR(*x++, 0.1 + 0.4 * part / 15, 1e-15);
 }
 
 TEST(PlateWithHole, IsSymmetricToTheLastBit)
 {
-  const auto                          mesh = generate<2>("plate with hole", { 7, 5 });
+  const auto                          mesh = generate<2>("plate with hole", {7, 5});
   std::set<std::pair<double, double>> vertices;
   for (const auto &x : mesh->triangulation.get_vertices())
     vertices.emplace(x[0], x[1]);
   EXPECT_EQ(vertices.size(), 8u * 7 * 6) << "vertices are made once";
   for (const auto &[x, y] : vertices)
-  {
-    EXPECT_EQ(vertices.count({ -x, y }), 1u) << x << " " << y;
-    EXPECT_EQ(vertices.count({ x, -y }), 1u) << x << " " << y;
-    EXPECT_EQ(vertices.count({ y, x }), 1u) << x << " " << y;
-  }
+    {
+      EXPECT_EQ(vertices.count({-x, y}), 1u) << x << " " << y;
+      EXPECT_EQ(vertices.count({x, -y}), 1u) << x << " " << y;
+      EXPECT_EQ(vertices.count({y, x}), 1u) << x << " " << y;
+    }
 }
 
 TEST(PlateWithHole, ExtrudesAboutTheOrigin)
 {
-  const auto mesh = generate<3>("plate with hole", { 3, 2, 2 }, { 1., 0.2 }, 1);
+  const auto mesh = generate<3>("plate with hole", {3, 2, 2}, {1., 0.2}, 1);
   EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 8u * 3 * 2 * 2 * 8);
   EXPECT_NEAR(measure(mesh->triangulation), 0.2 * plate_area(48), 1e-13);
   EXPECT_NEAR(boundary_measure(*mesh, "hole"), 0.2 * 48 * 0.2 * std::sin(dealii::numbers::PI / 48), 1e-13);
-  for (const char *side : { "back", "front" })
+  for (const char *side : {"back", "front"})
     EXPECT_NEAR(boundary_measure(*mesh, side), plate_area(48), 1e-13) << side;
   for (const auto &vertex : mesh->triangulation.get_vertices())
     EXPECT_LE(std::abs(vertex[2]), 0.1 + 1e-15);
@@ -116,17 +116,13 @@ TEST(PlateWithHole, ExtrudesAboutTheOrigin)
 TEST(Generators, RefuseWhatDoesNotFit)
 {
   expect_input_error(
-      [] { generate<2>("plate with hoel", {}); },
-      { "Mesh/Generator", "plate with hoel", "box | plate with hole", "did you mean: plate with hole" });
-  expect_input_error(
-      [] {
-        generate<2>("box", { 1, 2, 3 });
-      },
-      { "Mesh/Cells", "2 numbers", "counts along x, y" });
-  expect_input_error([] { generate<3>("plate with hole", {}, { 1. }); }, { "Mesh/Size", "depth" });
-  expect_input_error([] { generate<2>("box", {}, { 1., 0. }); }, { "Mesh/Size", "positive" });
-  expect_input_error([] { generate<2>("plate with hole", {}, { 0.2 }); },
-                     { "Mesh/Hole radius", "half the side" });
-  expect_input_error([] { generate<2>("box", { 100000, 100000 }); }, { "Mesh/Cells", "Mesh/Refinements" });
-  expect_input_error([] { generate<3>("box", {}, {}, 15); }, { "Mesh/Refinements" });
+    [] { generate<2>("plate with hoel", {}); },
+    {"Mesh/Generator", "plate with hoel", "box | plate with hole", "did you mean: plate with hole"});
+  expect_input_error([] { generate<2>("box", {1, 2, 3}); }, {"Mesh/Cells", "2 numbers", "counts along x, y"});
+  expect_input_error([] { generate<3>("plate with hole", {}, {1.}); }, {"Mesh/Size", "depth"});
+  expect_input_error([] { generate<2>("box", {}, {1., 0.}); }, {"Mesh/Size", "positive"});
+  expect_input_error([] { generate<2>("plate with hole", {}, {0.2}); },
+                     {"Mesh/Hole radius", "half the side"});
+  expect_input_error([] { generate<2>("box", {100000, 100000}); }, {"Mesh/Cells", "Mesh/Refinements"});
+  expect_input_error([] { generate<3>("box", {}, {}, 15); }, {"Mesh/Refinements"});
 }

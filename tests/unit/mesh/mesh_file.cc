@@ -14,30 +14,30 @@ using namespace perideal::test;
 namespace
 {
   /// Two transfinite rectangles; without groups, unless the rest names some.
-  const std::string rectangles
-      = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0};\n"
-        "Point(4) = {0, 1, 0}; Point(5) = {2, 0, 0}; Point(6) = {2, 1, 0};\n"
-        "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-        "Line(5) = {2, 5}; Line(6) = {5, 6}; Line(7) = {6, 3};\n"
-        "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-        "Curve Loop(2) = {5, 6, 7, -2}; Plane Surface(2) = {2};\n"
-        "Transfinite Curve \"*\" = 3; Transfinite Surface \"*\"; Recombine Surface \"*\";\n";
+  const std::string rectangles =
+    "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0};\n"
+    "Point(4) = {0, 1, 0}; Point(5) = {2, 0, 0}; Point(6) = {2, 1, 0};\n"
+    "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+    "Line(5) = {2, 5}; Line(6) = {5, 6}; Line(7) = {6, 3};\n"
+    "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+    "Curve Loop(2) = {5, 6, 7, -2}; Plane Surface(2) = {2};\n"
+    "Transfinite Curve \"*\" = 3; Transfinite Surface \"*\"; Recombine Surface \"*\";\n";
   const std::string groups = "Physical Curve(\"left\", 1) = {-4}; Physical Surface(\"body\", 2) = {1, 2};\n";
 } // namespace
 
 TEST(MeshFile, IsFoundBesideTheScene)
 {
   const TemporaryDirectory directory;
-  directory.write("square.msh", msh_22({}, two_squares, { "1 3 2 1 1 1 2 3 4" }));
+  directory.write("square.msh", msh_22({}, two_squares, {"1 3 2 1 1 1 2 3 4"}));
   MeshParameters parameters;
   parameters.file = "square.msh";
-  EXPECT_NEAR(measure(create_mesh<2>(parameters, MPI_COMM_WORLD, directory.path())->triangulation), 1.,
-              1e-14);
+  EXPECT_NEAR(
+    measure(create_mesh<2>(parameters, MPI_COMM_WORLD, directory.path())->triangulation), 1., 1e-14);
 
   parameters.file = "sqaure.msh";
   expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, directory.path()); },
-                     { "Mesh/File", "no such mesh file", directory.path(), "did you mean: square.msh" });
-  expect_input_error([&] { read<2>(directory.write("mesh.vtk", "text")); }, { "Mesh/File", ".msh | .geo" });
+                     {"Mesh/File", "no such mesh file", directory.path(), "did you mean: square.msh"});
+  expect_input_error([&] { read<2>(directory.write("mesh.vtk", "text")); }, {"Mesh/File", ".msh | .geo"});
 }
 
 TEST(MeshFile, GeometryIsMeshedByGmsh)
@@ -54,9 +54,9 @@ TEST(MeshFile, GeometryErrorsAreGmshsOwn)
 {
   const TemporaryDirectory directory;
   expect_input_error([&] { read<2>(directory.write("bad.geo", "Point(1) = {0, 0, 0};\nFoo bar;\n")); },
-                     { "Mesh/File", "bad.geo", "gmsh failed", "line 2" });
-  expect_input_error([&] { read<2>(directory.write("no_groups.geo", rectangles)); }, { "physical group" });
-  expect_input_error([&] { read<3>(directory.write("flat.geo", rectangles + groups)); }, { "Dimension = 2" });
+                     {"Mesh/File", "bad.geo", "gmsh failed", "line 2"});
+  expect_input_error([&] { read<2>(directory.write("no_groups.geo", rectangles)); }, {"physical group"});
+  expect_input_error([&] { read<3>(directory.write("flat.geo", rectangles + groups)); }, {"Dimension = 2"});
 }
 
 TEST(MeshFile, SaysWhenGmshIsMissing)
@@ -66,7 +66,7 @@ TEST(MeshFile, SaysWhenGmshIsMissing)
   const char              *path = std::getenv("PATH");
   const std::string        old  = path == nullptr ? "" : path;
   setenv("PATH", directory.path().c_str(), 1);
-  expect_input_error([&] { read<2>(file); }, { "Mesh/File", "gmsh", "apt-get install gmsh" });
+  expect_input_error([&] { read<2>(file); }, {"Mesh/File", "gmsh", "apt-get install gmsh"});
   setenv("PATH", old.c_str(), 1);
 }
 
@@ -90,9 +90,9 @@ TEST(MeshFile, BundledMeshesRead)
 TEST(MeshFile, BundledGeometryIsTheGeneratorsPlate)
 {
   const auto file      = read<2>("meshes/plate_with_hole.geo"),
-             generated = generate<2>("plate with hole", { 30, 32 });
+             generated = generate<2>("plate with hole", {30, 32});
   EXPECT_EQ(file->triangulation.n_global_active_cells(), 7680u);
   EXPECT_NEAR(measure(file->triangulation), measure(generated->triangulation), 1e-9);
-  for (const char *side : { "left", "right", "bottom", "top", "hole" })
+  for (const char *side : {"left", "right", "bottom", "top", "hole"})
     EXPECT_NEAR(boundary_measure(*file, side), boundary_measure(*generated, side), 1e-9) << side;
 }

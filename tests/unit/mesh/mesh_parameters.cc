@@ -20,8 +20,8 @@ TEST(MeshParameters, ReadsItsSection)
                                   "set Cylinders = hole: 0, -0.5; pin one: 1, 2e-1\n"
                                   "end\n");
   EXPECT_EQ(parameters.file, "meshes/a mesh.msh");
-  EXPECT_EQ(parameters.cells, (std::vector<unsigned int>{ 30, 32 }));
-  EXPECT_EQ(parameters.size, std::vector<double>{ 1.5 });
+  EXPECT_EQ(parameters.cells, (std::vector<unsigned int>{30, 32}));
+  EXPECT_EQ(parameters.size, std::vector<double>{1.5});
   EXPECT_EQ(parameters.hole_radius, 0.2);
   EXPECT_EQ(parameters.grading, 3.);
   EXPECT_EQ(parameters.refinements, 2u);
@@ -47,14 +47,14 @@ TEST(MeshParameters, AsksForOneMesh)
 {
   MeshParameters parameters;
   expect_input_error([&] { parameters.check(); },
-                     { "give Mesh/File or Mesh/Generator", "box | plate with hole" });
+                     {"give Mesh/File or Mesh/Generator", "box | plate with hole"});
   parameters.file      = "a.msh";
   parameters.generator = "box";
-  expect_input_error([&] { parameters.check(); }, { "Mesh/File", "two meshes", "a.msh" });
+  expect_input_error([&] { parameters.check(); }, {"Mesh/File", "two meshes", "a.msh"});
   parameters.file.clear();
   parameters.thickness = 0.;
-  expect_input_error([&] { parameters.check(); }, { "Mesh/Thickness", "> 0" });
+  expect_input_error([&] { parameters.check(); }, {"Mesh/Thickness", "> 0"});
   parameters.thickness         = 1.;
   parameters.cylinders["hole"] = {};
-  expect_input_error([&] { parameters.check(); }, { "Mesh/Cylinders" });
+  expect_input_error([&] { parameters.check(); }, {"Mesh/Cylinders"});
 }

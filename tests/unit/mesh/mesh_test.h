@@ -19,9 +19,9 @@
 namespace perideal::test
 {
   /// A `.msh` file of format 2.2 from entries; counts are filled in.
-  inline std::string
-  msh_22(const std::vector<std::string> &names, const std::vector<std::string> &nodes,
-         const std::vector<std::string> &elements)
+  inline std::string msh_22(const std::vector<std::string> &names,
+                            const std::vector<std::string> &nodes,
+                            const std::vector<std::string> &elements)
   {
     std::ostringstream text;
     text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -39,24 +39,24 @@ namespace perideal::test
   }
 
   /// Corners of two unit squares side by side, [0,2] x [0,1]: 4 3 6 above 1 2 5.
-  inline const std::vector<std::string> two_squares
-      = { "1 0 0 0", "2 1 0 0", "3 1 1 0", "4 0 1 0", "5 2 0 0", "6 2 1 0" };
+  inline const std::vector<std::string> two_squares = {
+    "1 0 0 0", "2 1 0 0", "3 1 1 0", "4 0 1 0", "5 2 0 0", "6 2 1 0"};
 
   /// Corners of a unit cube, the lower four counter-clockwise, then the upper.
-  inline const std::vector<std::string> cube
-      = { "1 0 0 0", "2 1 0 0", "3 1 1 0", "4 0 1 0", "5 0 0 1", "6 1 0 1", "7 1 1 1", "8 0 1 1" };
+  inline const std::vector<std::string> cube = {
+    "1 0 0 0", "2 1 0 0", "3 1 1 0", "4 0 1 0", "5 0 0 1", "6 1 0 1", "7 1 1 1", "8 0 1 1"};
 
   /// Area of the unit plate without the polygon of n corners on the circle of radius 0.1.
-  inline double
-  plate_area(const unsigned int n)
+  inline double plate_area(const unsigned int n)
   {
     return 1. - n / 2. * 0.01 * std::sin(2 * dealii::numbers::PI / n);
   }
 
   template <int dim>
-  std::unique_ptr<Mesh<dim>>
-  generate(const std::string &generator, const std::vector<unsigned int> &cells,
-           const std::vector<double> &size = {}, const unsigned int refinements = 0)
+  std::unique_ptr<Mesh<dim>> generate(const std::string               &generator,
+                                      const std::vector<unsigned int> &cells,
+                                      const std::vector<double>       &size        = {},
+                                      const unsigned int               refinements = 0)
   {
     MeshParameters parameters;
     parameters.generator   = generator;
@@ -67,8 +67,7 @@ namespace perideal::test
   }
 
   template <int dim>
-  std::unique_ptr<Mesh<dim>>
-  read(const std::string &path)
+  std::unique_ptr<Mesh<dim>> read(const std::string &path)
   {
     MeshParameters parameters;
     parameters.file = path;
@@ -77,8 +76,7 @@ namespace perideal::test
 
   /// Area or volume of all ranks' cells.
   template <int dim>
-  double
-  measure(const dealii::Triangulation<dim> &triangulation)
+  double measure(const dealii::Triangulation<dim> &triangulation)
   {
     double sum = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
@@ -89,8 +87,7 @@ namespace perideal::test
 
   /// Length or area of the faces of one boundary.
   template <int dim>
-  double
-  boundary_measure(const Mesh<dim> &mesh, const std::string &name)
+  double boundary_measure(const Mesh<dim> &mesh, const std::string &name)
   {
     const dealii::types::boundary_id id  = mesh.boundary_id(name, "test");
     double                           sum = 0;

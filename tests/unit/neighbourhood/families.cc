@@ -97,7 +97,7 @@ TEST(Families, RegularLatticeHasTheKnownSize)
   const auto       mesh = test::make_box<2>({12, 12}, {1., 1.}, 0.);
   const test::Body body(*mesh);
   EXPECT_EQ(body.families->statistics().max, 28u);
-  const auto         block = test::make_box<3>({8, 8, 8}, {1., 1., 1.}, 0.);
+  const auto          block = test::make_box<3>({8, 8, 8}, {1., 1., 1.}, 0.);
   const test::Body<3> solid(*block);
   EXPECT_EQ(solid.families->statistics().max, 122u);
 }

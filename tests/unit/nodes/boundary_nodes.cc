@@ -27,6 +27,5 @@ TEST(NodesOnBoundary, CountsFacesAndNotVertices)
       if (face->at_boundary())
         face->set_boundary_id(3);
   EXPECT_EQ(
-      dealii::Utilities::MPI::sum<unsigned int>(nodes_on_boundary(mesh, nodes, 3).size(), MPI_COMM_WORLD),
-      12u);
+    dealii::Utilities::MPI::sum<unsigned int>(nodes_on_boundary(mesh, nodes, 3).size(), MPI_COMM_WORLD), 12u);
 }

@@ -13,9 +13,9 @@ TEST(Nodes, VolumesAndFirstMomentsAreExact)
   for (const auto &mesh : test::make_boxes<2>())
     {
       mesh->thickness = 0.5;
-      const Nodes<2>         nodes(*mesh, NodeParameters{3.});
-      double                 volume = 0;
-      dealii::Tensor<1, 2>   moment;
+      const Nodes<2>       nodes(*mesh, NodeParameters{3.});
+      double               volume = 0;
+      dealii::Tensor<1, 2> moment;
       for (LocalIndex i = 0; i < nodes.size(); ++i)
         {
           volume += nodes.volume[i];
@@ -23,9 +23,9 @@ TEST(Nodes, VolumesAndFirstMomentsAreExact)
           EXPECT_NEAR(nodes.spacing[i] * nodes.spacing[i] * 0.5, nodes.volume[i], 1e-15);
           EXPECT_NEAR(nodes.horizon[i], 3 * nodes.spacing[i], 1e-15);
         }
-      volume = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
-      moment = dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD);
-      const auto box = dealii::GridTools::compute_bounding_box(mesh->triangulation);
+      volume               = dealii::Utilities::MPI::sum(volume, MPI_COMM_WORLD);
+      moment               = dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD);
+      const auto       box = dealii::GridTools::compute_bounding_box(mesh->triangulation);
       dealii::Point<2> upper;
       for (int d = 0; d < 2; ++d)
         upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), MPI_COMM_WORLD);

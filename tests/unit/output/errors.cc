@@ -15,8 +15,7 @@ namespace
 {
   using Field = std::vector<dealii::Tensor<1, 2>>;
 
-  dealii::Tensor<1, 2>
-  vector(const double x, const double y)
+  dealii::Tensor<1, 2> vector(const double x, const double y)
   {
     dealii::Tensor<1, 2> result;
     result[0] = x;
@@ -30,22 +29,21 @@ namespace
   {
   protected:
     TwoHalves()
-        : mesh(MPI_COMM_WORLD)
-        , nodes(make_nodes(mesh))
+      : mesh(MPI_COMM_WORLD)
+      , nodes(make_nodes(mesh))
     {
       for (LocalIndex i = 0; i < nodes.size(); ++i)
-      {
-        const bool left = nodes.position[i][0] < 0.5;
-        reference.push_back(left ? vector(3, 4) : vector(0, 1));
-        field.push_back(reference[i] + (left ? vector(1, 0) : vector(0, -2)));
-        all.push_back(i);
-        if (left)
-          left_half.push_back(i);
-      }
+        {
+          const bool left = nodes.position[i][0] < 0.5;
+          reference.push_back(left ? vector(3, 4) : vector(0, 1));
+          field.push_back(reference[i] + (left ? vector(1, 0) : vector(0, -2)));
+          all.push_back(i);
+          if (left)
+            left_half.push_back(i);
+        }
     }
 
-    static Nodes<2>
-    make_nodes(Mesh<2> &mesh)
+    static Nodes<2> make_nodes(Mesh<2> &mesh)
     {
       dealii::GridGenerator::subdivided_hyper_cube(mesh.triangulation, 2);
       for (const auto &cell : mesh.triangulation.active_cell_iterators())

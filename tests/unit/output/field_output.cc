@@ -19,8 +19,7 @@ namespace
   using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
   TYPED_TEST_SUITE(FieldOutputTest, Dimensions);
 
-  unsigned int
-  count(const std::string &text, const std::string &part)
+  unsigned int count(const std::string &text, const std::string &part)
   {
     unsigned int n = 0;
     for (auto i = text.find(part); i != std::string::npos; i = text.find(part, i + 1))
@@ -55,20 +54,20 @@ TYPED_TEST(FieldOutputTest, EveryCellHasTheValueOfItsNode)
   GlobalIndex n_cells = 0;
   for (std::size_t piece = 0; piece < points.size(); ++piece)
     for (std::size_t cell = 0; cell < points[piece].size() / (3 * n_vertices); ++cell, ++n_cells)
-    {
-      dealii::Point<dim> centre;
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        for (unsigned int d = 0; d < dim; ++d)
-          centre[d] += points[piece][3 * (cell * n_vertices + v) + d] / n_vertices;
-      for (unsigned int v = 0; v < n_vertices; ++v)
       {
-        // Values up to 500 in single precision, whose unit round-off is 6e-8.
-        const std::size_t point = cell * n_vertices + v;
-        for (unsigned int d = 0; d < 3; ++d)
-          EXPECT_NEAR(vectors[piece][3 * point + d], d < dim ? sample(centre)[d % dim] : 0., 1e-3);
-        EXPECT_NEAR(scalars[piece][point], centre[dim - 1], 1e-5);
+        dealii::Point<dim> centre;
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            centre[d] += points[piece][3 * (cell * n_vertices + v) + d] / n_vertices;
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          {
+            // Values up to 500 in single precision, whose unit round-off is 6e-8.
+            const std::size_t point = cell * n_vertices + v;
+            for (unsigned int d = 0; d < 3; ++d)
+              EXPECT_NEAR(vectors[piece][3 * point + d], d < dim ? sample(centre)[d % dim] : 0., 1e-3);
+            EXPECT_NEAR(scalars[piece][point], centre[dim - 1], 1e-5);
+          }
       }
-    }
   EXPECT_EQ(n_cells, nodes.n_global);
 }
 
@@ -109,11 +108,11 @@ TEST(FieldOutput, SingleOutputKeepsTheLast)
   const Nodes<2> nodes(mesh, NodeParameters());
   const auto     directory = scratch_directory("single");
   FieldOutput<2> output(mesh, nodes, directory, OutputSteps::single);
-  for (const unsigned int step : { 0, 1 })
-  {
-    output.add_scalar("step", std::vector<double>(nodes.size(), step));
-    output.write(step, step);
-  }
+  for (const unsigned int step : {0, 1})
+    {
+      output.add_scalar("step", std::vector<double>(nodes.size(), step));
+      output.write(step, step);
+    }
   const std::string pvd = read_text(directory + "/solution.pvd");
   EXPECT_EQ(count(pvd, "<DataSet"), 1u);
   EXPECT_NE(pvd.find("timestep=\"1\""), std::string::npos) << pvd;

@@ -23,17 +23,17 @@ TEST(OutputDirectory, IsCreatedWithItsParentsAndLeftEmpty)
 // Root may write everywhere, but nobody below a file.
 TEST(OutputDirectory, NamesTheParameterWhenItCannotBeWritten)
 {
-  for (const std::string directory : { "/dev/null/below", "" })
+  for (const std::string directory : {"/dev/null/below", ""})
     try
-    {
-      create_output_directory(directory, MPI_COMM_WORLD);
-      ADD_FAILURE() << "no error for '" << directory << "'";
-    }
+      {
+        create_output_directory(directory, MPI_COMM_WORLD);
+        ADD_FAILURE() << "no error for '" << directory << "'";
+      }
     catch (const InputError &error)
-    {
-      EXPECT_EQ(error.parameter(), "Output directory");
-      EXPECT_TRUE(error.has_given() || directory.empty());
-    }
+      {
+        EXPECT_EQ(error.parameter(), "Output directory");
+        EXPECT_TRUE(error.has_given() || directory.empty());
+      }
 }
 
 TEST(ReplaceFile, LeavesTheNewTextAndNothingElse)
@@ -41,10 +41,10 @@ TEST(ReplaceFile, LeavesTheNewTextAndNothingElse)
   const std::string directory = scratch_directory("replace");
   create_output_directory(directory, MPI_COMM_WORLD);
   if (is_first_rank())
-  {
-    replace_file(directory + "/file", "a longer old text");
-    replace_file(directory + "/file", "new");
-  }
+    {
+      replace_file(directory + "/file", "a longer old text");
+      replace_file(directory + "/file", "new");
+    }
   EXPECT_EQ(read_text(directory + "/file"), "new");
   const std::filesystem::directory_iterator files(directory);
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
@@ -58,8 +58,9 @@ TEST(ReplaceFile, FailsWhereItCannotWrite)
 TEST(Csv, QuotesNamesAndKeepsAllDigits)
 {
   std::ostringstream out;
-  write_csv_header(out, { "time [s]", "left, top", "a \"b\"" });
-  write_csv_row(out, { 0.1, 1. / 3., 2 });
-  EXPECT_EQ(out.str(), "time [s],\"left, top\",\"a \"\"b\"\"\"\n"
-                       "0.10000000000000001,0.33333333333333331,2\n");
+  write_csv_header(out, {"time [s]", "left, top", "a \"b\""});
+  write_csv_row(out, {0.1, 1. / 3., 2});
+  EXPECT_EQ(out.str(),
+            "time [s],\"left, top\",\"a \"\"b\"\"\"\n"
+            "0.10000000000000001,0.33333333333333331,2\n");
 }

@@ -16,16 +16,14 @@
 /// What the tests of this room share.
 namespace output_test
 {
-  inline bool
-  is_first_rank()
+  inline bool is_first_rank()
   {
     return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   }
 
   /// An absent directory of the test's own, under the working directory; runs
   /// with different numbers of ranks may go on at the same time.
-  inline std::string
-  scratch_directory(const std::string &name)
+  inline std::string scratch_directory(const std::string &name)
   {
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
     const std::string  path    = "scratch_output/" + name + "_" + std::to_string(n_ranks);
@@ -38,8 +36,7 @@ namespace output_test
   }
 
   /// The whole file, on all ranks once all have reached this line.
-  inline std::string
-  read_text(const std::string &path)
+  inline std::string read_text(const std::string &path)
   {
     MPI_Barrier(MPI_COMM_WORLD);
     std::ostringstream text;
@@ -48,8 +45,7 @@ namespace output_test
   }
 
   /// Lines of a file.
-  inline std::vector<std::string>
-  read_lines(const std::string &path)
+  inline std::vector<std::string> read_lines(const std::string &path)
   {
     std::istringstream       text(read_text(path));
     std::vector<std::string> lines;
@@ -59,37 +55,34 @@ namespace output_test
   }
 
   /// Numbers of a CSV file, without its header.
-  inline std::vector<std::vector<double>>
-  read_csv(const std::string &path)
+  inline std::vector<std::vector<double>> read_csv(const std::string &path)
   {
     const auto                       lines = read_lines(path);
     std::vector<std::vector<double>> rows;
     for (std::size_t i = 1; i < lines.size(); ++i)
-    {
-      rows.emplace_back();
-      std::istringstream line(lines[i]);
-      for (std::string cell; std::getline(line, cell, ',');)
-        rows.back().push_back(std::stod(cell));
-    }
+      {
+        rows.emplace_back();
+        std::istringstream line(lines[i]);
+        for (std::string cell; std::getline(line, cell, ',');)
+          rows.back().push_back(std::stod(cell));
+      }
     return rows;
   }
 
   /// A block of n^dim cells with edges 1, 2 and 3, so that no two directions are alike.
   template <int dim>
-  void
-  make_block(perideal::Mesh<dim> &mesh, const unsigned int n)
+  void make_block(perideal::Mesh<dim> &mesh, const unsigned int n)
   {
     dealii::Point<dim> corner;
     for (unsigned int d = 0; d < dim; ++d)
       corner[d] = 1 + d;
-    dealii::GridGenerator::subdivided_hyper_rectangle(mesh.triangulation, std::vector<unsigned int>(dim, n),
-                                                      dealii::Point<dim>(), corner, true);
+    dealii::GridGenerator::subdivided_hyper_rectangle(
+      mesh.triangulation, std::vector<unsigned int>(dim, n), dealii::Point<dim>(), corner, true);
   }
 
   /// A field that tells the cells and the components apart.
   template <int dim>
-  dealii::Tensor<1, dim>
-  sample(const dealii::Point<dim> &x)
+  dealii::Tensor<1, dim> sample(const dealii::Point<dim> &x)
   {
     dealii::Tensor<1, dim> value;
     for (unsigned int d = 0; d < dim; ++d)
@@ -98,8 +91,7 @@ namespace output_test
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  sample_at_nodes(const perideal::Nodes<dim> &nodes)
+  std::vector<dealii::Tensor<1, dim>> sample_at_nodes(const perideal::Nodes<dim> &nodes)
   {
     std::vector<dealii::Tensor<1, dim>> values;
     for (const auto &x : nodes.position)

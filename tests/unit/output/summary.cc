@@ -21,7 +21,7 @@ TEST(Summary, RoundTripKeepsOrderAndDigits)
   summary["status"]       = "done";
   summary["nodes"]        = std::uint64_t(5000000000);
   summary["errors"]["l2"] = 1. / 3e4;
-  summary["bad"]     = { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() };
+  summary["bad"]     = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   summary["command"] = "caf\xe9"; // Latin-1, no UTF-8
   write_summary(directory + "/summary.json", summary, MPI_COMM_WORLD);
 
@@ -36,7 +36,7 @@ TEST(Summary, RoundTripKeepsOrderAndDigits)
 
 TEST(ReportTable, AlignsNamesLeftAndNumbersRight)
 {
-  EXPECT_EQ(report_table({ "phase", "s" }, { { "mesh", "0.5" }, { "neighbours", "12" } }),
+  EXPECT_EQ(report_table({"phase", "s"}, {{"mesh", "0.5"}, {"neighbours", "12"}}),
             "phase         s\n"
             "mesh        0.5\n"
             "neighbours   12\n");

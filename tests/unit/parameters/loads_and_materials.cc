@@ -12,8 +12,8 @@ namespace
 {
   Loads<2> read_loads(const std::string &lines)
   {
-    const ParameterFile file =
-      ParameterFile::parse("subsection Boundary conditions\n subsection edge\n" + lines + " end\nend\n", "a.prm");
+    const ParameterFile file = ParameterFile::parse(
+      "subsection Boundary conditions\n subsection edge\n" + lines + " end\nend\n", "a.prm");
     dealii::ParameterHandler prm;
     LoadParameters           parameters;
     parameters.declare(prm, file);
@@ -89,9 +89,9 @@ TEST(ElasticConstants, AgreeWithHookesLaw)
 {
   // Uniaxial stress must follow Young's modulus: sigma_yy = 0 at eps_yy = -nu eps_xx
   // (plane stress and 3-D), in plane strain at -nu/(1-nu).
-  const double E = 7., nu = 0.3;
-  const ElasticConstants stress{E, nu, PlaneAssumption::plane_stress}, strain{E, nu, PlaneAssumption::plane_strain},
-    solid{E, nu, PlaneAssumption::solid};
+  const double           E = 7., nu = 0.3;
+  const ElasticConstants stress{E, nu, PlaneAssumption::plane_stress},
+    strain{E, nu, PlaneAssumption::plane_strain}, solid{E, nu, PlaneAssumption::solid};
   EXPECT_NEAR(stress.lame_lambda() * (1 - nu) + 2 * stress.shear_modulus(), E, 1e-12);
   EXPECT_NEAR(stress.lame_lambda() * (1 - nu) - 2 * stress.shear_modulus() * nu, 0., 1e-12);
   const double lateral = -nu / (1 - nu);

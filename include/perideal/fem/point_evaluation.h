@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_fem_point_evaluation_h
+#define perideal_fem_point_evaluation_h
+
+#include <perideal/base/types.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/grid/grid_tools_cache.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Values of a continuous finite-element displacement at any points, wherever
+   * their cells are.
+   *
+   * dealii::Utilities::MPI::RemotePointEvaluation does the same, but looks
+   * through all cells for each point that lies on a vertex. On the refined
+   * reference those are nearly all points asked for: the middle of a cell is a
+   * vertex of its children.
+   */
+  template <int dim>
+  class PointEvaluation
+  {
+  public:
+    /// @param displacement with ghosts up to date. The arguments must outlive this object.
+    PointEvaluation(const dealii::Mapping<dim>    &mapping,
+                    const dealii::DoFHandler<dim> &unknowns,
+                    const NodalVector             &displacement);
+
+    /// Displacement [m] at this rank's points. Collective. A point up to
+    /// a tenth of a cell outside gets the value of the nearest cell's polynomial.
+    /// @throws ComputationError (on all ranks) for a point farther out.
+    std::vector<dealii::Tensor<1, dim>> evaluate(const std::vector<dealii::Point<dim>> &points) const;
+
+  private:
+    /// Distance of the point from the unit cell, then the components of the value.
+    using Sample = std::array<double, dim + 1>;
+
+    /// Which cells of this rank may hold a point.
+    enum class Candidates
+    {
+      around_point,
+      nearest
+    };
+
+    /// Sends points to ranks, and keeps of their answers the best for each point.
+    void ask(const std::vector<dealii::Point<dim>>                  &points,
+             const std::map<unsigned int, std::vector<std::size_t>> &points_for_rank,
+             const Candidates                                        candidates,
+             std::vector<Sample>                                    &best) const;
+
+    /// The best sample that the cells of this rank have.
+    Sample sample(const dealii::Point<dim> &point, const Candidates candidates) const;
+
+    const dealii::Mapping<dim>    &mapping;
+    const dealii::DoFHandler<dim> &unknowns;
+    const NodalVector             &displacement;
+    dealii::GridTools::Cache<dim>  cache;
+  };
+} // namespace perideal
+
+#endif
