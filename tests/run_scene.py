@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs a scene and compares what it leaves with the expected figures beside it.
 
-    run_scene.py --program build/perideal [--ranks N] SCENE.prm
+    run_scene.py --program build/perideal [--ranks N] SCENE.json
     run_scene.py --self-test
 
 SCENE.json:
     {"why":    "what the scene guards",
+     "scene":  "../other.prm",             what to run, relative to the .json (default SCENE.prm)
      "ranks":  [1, 2],                     rank counts that ctest runs
      "set":    ["Section/Name=value"],     overrides (optional)
      "exit":   0,                          exit status (optional)
@@ -74,7 +75,7 @@ def kind_of(check):
 
 def read_expectations(path):
     expectations = json.loads(path.read_text(encoding="utf-8"))
-    unknown = set(expectations) - {"why", "ranks", "set", "exit", "checks"}
+    unknown = set(expectations) - {"why", "scene", "ranks", "set", "exit", "checks"}
     if unknown:
         raise BadExpectations(f"unknown {', '.join(sorted(unknown))}")
     for needed in ("why", "ranks", "checks"):
@@ -83,6 +84,14 @@ def read_expectations(path):
     for check in expectations["checks"]:
         kind_of(check)
     return expectations
+
+
+def scene_of(path, expectations):
+    """The parameter file that the expectations at path are about."""
+    scene = Path(os.path.normpath(path.parent / expectations.get("scene", path.with_suffix(".prm").name)))
+    if not scene.is_file():
+        raise BadExpectations(f"no scene {scene}")
+    return scene
 
 
 def look_up(summary, path):
@@ -178,8 +187,9 @@ def execute(command, seconds):
 
 
 def run_scene(arguments):
-    scene = Path(arguments.scene)
-    expectations = read_expectations(scene.with_suffix(".json"))
+    expectations_file = Path(arguments.expectations)
+    expectations = read_expectations(expectations_file)
+    scene = scene_of(expectations_file, expectations)
     compares = any("same_on_all_ranks" in check for check in expectations["checks"])
     if compares and arguments.ranks != expectations["ranks"][0] and not arguments.compare_with:
         raise BadExpectations('"same_on_all_ranks" needs --compare-with and the --save-summary of '
@@ -190,7 +200,8 @@ def run_scene(arguments):
             command += ["--set", override]
         if arguments.ranks > 1:
             command = shlex.split(arguments.mpirun) + ["-n", str(arguments.ranks)] + command
-        print(f"{scene.stem} on {arguments.ranks} ranks: {expectations['why']}\n{shlex.join(command)}", flush=True)
+        print(f"{expectations_file.stem} on {arguments.ranks} ranks: {expectations['why']}")
+        print(shlex.join(command), flush=True)
         status, text = execute(command, arguments.timeout)
         if status != expectations.get("exit", 0):
             got = f"no end within {arguments.timeout:g} s" if status is None else f"exit status {status}"
@@ -263,7 +274,19 @@ def self_test():
             print('a check without "why" was accepted')
         except BadExpectations:
             pass
-    print(f"self-test: {len(cases) + 1 - surprises} of {len(cases) + 1} cases as expected")
+        try:
+            scene_of(Path(output, "variant.json"), {"scene": "absent.prm"})
+            surprises += 1
+            print("an absent scene was accepted")
+        except BadExpectations:
+            pass
+        Path(output, "empty.prm").touch()
+        for name, expectations in (("empty.json", {}), ("variant.json", {"scene": "absent/../empty.prm"})):
+            if scene_of(Path(output, name), expectations) != Path(output, "empty.prm"):
+                surprises += 1
+                print(f"{name} does not run empty.prm")
+    n_cases = len(cases) + 4
+    print(f"self-test: {n_cases - surprises} of {n_cases} cases as expected")
     return 1 if surprises else 0
 
 
@@ -271,7 +294,7 @@ def main():
     if sys.argv[1:] == ["--self-test"]:
         return self_test()
     parser = argparse.ArgumentParser(description="runs a scene and checks its figures")
-    parser.add_argument("scene", help="the .prm file, with its .json beside it")
+    parser.add_argument("expectations", help="the .json file of the scene")
     parser.add_argument("--program", required=True)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe", help="default: %(default)s")
@@ -282,7 +305,7 @@ def main():
     try:
         return run_scene(arguments)
     except BadExpectations as error:
-        print(f"{Path(arguments.scene).with_suffix('.json')}: {error}")
+        print(f"{arguments.expectations}: {error}")
         return 1
 
 

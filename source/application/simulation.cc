@@ -6,9 +6,7 @@
 #include <perideal/application/versions.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/nodal_forces.h>
-#include <perideal/fracture/critical_stretch.h>
 #include <perideal/mesh/create_mesh.h>
-#include <perideal/operators/stable_time_step.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 
@@ -67,45 +65,6 @@ namespace perideal
         throw;
       }
     finish("done");
-  }
-
-  template <int dim>
-  void Simulation<dim>::check()
-  {
-    make_mesh();
-    make_nodes_and_families();
-    weigh_bonds();
-    screen << banner(parameters, scene);
-
-    const std::size_t bytes = dealii::Utilities::MPI::sum(
-      scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
-    screen << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
-           << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node; "
-           << "the preconditioner takes about as much again\n";
-    const auto density = [&](const dealii::types::material_id id) { return properties_of(id).density; };
-    screen << "time step   " << short_number(stable_time_step(*scene.system, density))
-           << " s is the largest stable one of explicit dynamics\n";
-    for (const auto id : scene.mesh->material_ids)
-      {
-        const MaterialProperties &material        = properties_of(id);
-        double                    largest_horizon = 0;
-        for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
-          if (scene.nodes->material[i] == id)
-            largest_horizon = std::max(largest_horizon, scene.nodes->horizon[i]);
-        largest_horizon = dealii::Utilities::MPI::max(largest_horizon, communicator);
-        screen << "material    " << id << ": ";
-        if (material.fracture_energy > 0)
-          screen << "critical stretch "
-                 << short_number(ordinary_critical_stretch(
-                      scene.constants.at(id), material.fracture_energy, largest_horizon))
-                 << " at the largest horizon, " << short_number(largest_horizon) << " m\n";
-        else
-          screen << "no fracture energy given, unbreakable\n";
-      }
-    for (const std::string &warning : warnings(parameters, scene))
-      screen << "warning     " << warning << '\n';
-    find_free_motions();
-    screen << "nothing was solved" << std::endl;
   }
 
   template <int dim>

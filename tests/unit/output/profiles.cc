@@ -43,7 +43,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = row[1 + d];
         for (unsigned int d = 0; d < dim; ++d)
-          EXPECT_EQ(row[1 + dim + d], sample(x)[d]);
+          EXPECT_DOUBLE_EQ(row[1 + dim + d], sample(x)[d]);
       }
   }
 } // namespace

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/family_operator.h>
+
+#include <algorithm>
+
+// The hot loops of FamilyOperator: two passes over all bonds.
+
+namespace perideal
+{
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void
+  FamilyOperator<dim, n_sums, own_force_weights>::import_displacement(const NodalVector &displacement) const
+  {
+    const NodalVector *source = &displacement;
+    if (families->n_local() > families->n_owned())
+      {
+        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
+        ghosted.update_ghost_values();
+        source = &ghosted;
+      }
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        displacements[i].value[d] = source->local_element(dim * i + d);
+    ghosted.zero_out_ghost_values();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyOperator<dim, n_sums, own_force_weights>::sum_over_families() const
+  {
+    for (unsigned int a = 0; a < n_sums; ++a)
+      std::fill(sums[a].begin(), sums[a].end(), 0.);
+    const LocalIndex *neighbour = bonds.neighbour.data();
+    const NodeRecord *x = positions.data(), *u = displacements.data();
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        const Lanes xi = lanes(x[i]), ui = lanes(u[i]);
+        Lanes       own[n_sums] = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j = neighbour + k;
+            Lanes             extension;
+            sum_of_each(extension,
+                        (lanes(x[j[0]]) - xi) * (lanes(u[j[0]]) - ui),
+                        (lanes(x[j[1]]) - xi) * (lanes(u[j[1]]) - ui),
+                        (lanes(x[j[2]]) - xi) * (lanes(u[j[2]]) - ui),
+                        (lanes(x[j[3]]) - xi) * (lanes(u[j[3]]) - ui));
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                Lanes near, far;
+                load(near, sum_weight[a].near.data() + k);
+                load(far, sum_weight[a].far.data() + k);
+                own[a] += near * extension;
+                far *= extension;
+                double *sum = sums[a].data();
+                for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+                  sum[j[lane]] += far[lane];
+              }
+          }
+        for (unsigned int a = 0; a < n_sums; ++a)
+          sums[a][i] += sum_of_all(own[a]);
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  std::array<double, n_sums>
+  FamilyOperator<dim, n_sums, own_force_weights>::states(const LocalIndex                  i,
+                                                         const std::array<double, n_sums> &s) const
+  {
+    if constexpr (n_sums == 1)
+      return {{map[i][0] * s[0]}};
+    else
+      return {{map[i][0] * s[0] + map[i][1] * s[1], map[i][1] * s[0] + map[i][2] * s[1]}};
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyOperator<dim, n_sums, own_force_weights>::turn_sums_into_states() const
+  {
+    const bool has_ghosts = families->n_local() > families->n_owned();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        std::array<double, n_sums> s;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          s[a] = sums[a][i];
+        s = states(i, s);
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            state[a][i] = s[a];
+            if (has_ghosts)
+              ghosted_states.local_element(n_sums * i + a) = s[a];
+          }
+      }
+    if (has_ghosts)
+      {
+        ghosted_states.update_ghost_values();
+        for (LocalIndex i = families->n_owned(); i < families->n_local(); ++i)
+          for (unsigned int a = 0; a < n_sums; ++a)
+            state[a][i] = ghosted_states.local_element(n_sums * i + a);
+        ghosted_states.zero_out_ghost_values();
+      }
+    // In 2-D both states ride in the record of the displacement, in 3-D the first.
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (unsigned int a = 0; a < n_sums && dim + a < 4; ++a)
+        displacements[i].value[dim + a] = state[a][i];
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyOperator<dim, n_sums, own_force_weights>::sum_forces() const
+  {
+    const LocalIndex *neighbour = bonds.neighbour.data();
+    const NodeRecord *x = positions.data(), *u = displacements.data();
+    NodeRecord       *f       = forces.data();
+    const Weights    &weights = force_weights();
+    std::fill(forces.begin(), forces.end(), NodeRecord{});
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        const Lanes xi = lanes(x[i]), ui = lanes(u[i]);
+        Lanes       own = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j = neighbour + k;
+            // x has zeros behind the coordinates, which keeps the states out of the sum.
+            const Lanes bond[4] = {
+              lanes(x[j[0]]) - xi, lanes(x[j[1]]) - xi, lanes(x[j[2]]) - xi, lanes(x[j[3]]) - xi};
+            const Lanes uj[4] = {lanes(u[j[0]]), lanes(u[j[1]]), lanes(u[j[2]]), lanes(u[j[3]])};
+            Lanes       extension, magnitude;
+            sum_of_each(extension,
+                        bond[0] * (uj[0] - ui),
+                        bond[1] * (uj[1] - ui),
+                        bond[2] * (uj[2] - ui),
+                        bond[3] * (uj[3] - ui));
+            load(magnitude, stiffness.data() + k);
+            magnitude *= extension;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                Lanes near, far;
+                load(near, weights[a].near.data() + k);
+                load(far, weights[a].far.data() + k);
+                const double *s         = state[a].data();
+                const Lanes   far_state = dim + a < 4 ? Lanes{uj[0][(dim + a) % 4],
+                                                            uj[1][(dim + a) % 4],
+                                                            uj[2][(dim + a) % 4],
+                                                            uj[3][(dim + a) % 4]} :
+                                                        Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+                magnitude += near * s[i] + far * far_state;
+              }
+            for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+              {
+                const Lanes pull = magnitude[lane] * bond[lane];
+                own += pull;
+                lanes(f[j[lane]]) -= pull;
+              }
+          }
+        lanes(f[i]) += own;
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyOperator<dim, n_sums, own_force_weights>::vmult(NodalVector       &force,
+                                                             const NodalVector &displacement) const
+  {
+    import_displacement(displacement);
+    sum_over_families();
+    turn_sums_into_states();
+    sum_forces();
+    // Bonds pull node i along +xi when stretched; K u resists with the opposite sign.
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) = -forces[i].value[d];
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template class FamilyOperator<dim, n_sums, own_force_weights>;
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the program's options that solve nothing and checks what they print and write.
+
+    run_command_line.py --program build/perideal --example prm/examples/plate_with_hole.prm
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+# One thread a rank; Open MPI may run as root (containers).
+ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+
+def run(program, *arguments, folder):
+    process = subprocess.run([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                             timeout=60, check=False, env={**ENVIRONMENT, **os.environ})
+    return process.returncode, process.stdout.decode(), process.stderr.decode()
+
+
+def deviations(program, folder, arguments, words):
+    """What differs from: exit status 0, all words on stdout, stderr empty, no file written; as texts."""
+    before = set(folder.rglob("*"))
+    status, out, err = run(program, *arguments, folder=folder)
+    found = [f"exit status {status}"] if status != 0 else []
+    found += [f"does not say {word!r}" for word in words if word not in out]
+    found += [f"wrote {path.name}" for path in sorted(set(folder.rglob("*")) - before)]
+    if err:
+        found.append(f"stderr: {err.strip()}")
+    return found
+
+
+def listed_scene(program, folder):
+    """The list of parameters as a scene: without the material of a named group, and its one condition filled in."""
+    listing = run(program, "--parameters", "prm", folder=folder)[1]
+    listing, n_groups = re.subn(r"\n  subsection PHYSICAL GROUP\n.*?\n  end\n", "\n", listing, flags=re.DOTALL)
+    (folder / "listed.prm").write_text(listing, encoding="utf-8")
+    condition = "Boundary conditions/ANY NAME/"
+    values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0"]
+    return n_groups, [argument for value in values for argument in ("--set", value)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description="runs the options that solve nothing")
+    parser.add_argument("--program", required=True, type=os.path.abspath)
+    parser.add_argument("--example", required=True, type=os.path.abspath)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="perideal-command-") as name:
+        folder = Path(name)
+        n_groups, values = listed_scene(arguments.program, folder)
+        checked = ["nodes", "bonds", "neighbours", "memory", "time step", "nothing was solved"]
+        cases = [(["--help"], ["--check", "--parameters", "--set", "mpirun", "Exit status"]),
+                 (["--version"], ["perideal", "deal.II", "Trilinos"]),
+                 (["--parameters"], ["Horizon factor"]),
+                 (["--parameters", "text"], ["Horizon factor"]),
+                 (["--parameters", "prm"], ["set Horizon factor", "subsection Nodes"]),
+                 (["--parameters", "markdown"], ["Horizon factor", "|"]),
+                 (["--check", arguments.example], ["7,680"] + checked),
+                 (["--check", "listed.prm"] + values, checked)]
+        n_deviating = 0
+        for options, words in cases:
+            found = deviations(arguments.program, folder, options, words)
+            n_deviating += bool(found)
+            print(f"{'DEVIATES' if found else 'ok':8}  {' '.join(options)}")
+            for deviation in found:
+                print(f"    {deviation}")
+    if n_groups != 1:
+        n_deviating += 1
+        print(f"the list of parameters has {n_groups} materials of named groups, not 1")
+    print(f"{len(cases)} runs, {n_deviating} deviate")
+    return 1 if n_deviating else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
