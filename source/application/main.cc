@@ -6,9 +6,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <thread>
 
 namespace
 {
@@ -106,6 +108,9 @@ int main(int argc, char **argv)
     }
   catch (const ComputationError &error)
     {
+      // Where all ranks fail alike, the first speaks and ends the others.
+      if (!is_first)
+        std::this_thread::sleep_for(std::chrono::seconds(1));
       std::cerr << "perideal: computation failed: " << error.what() << std::endl;
     }
   catch (const std::bad_alloc &)

@@ -136,8 +136,8 @@ namespace perideal
       result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
     if (scene.bonds && scene.bonds->counts.singular > 0)
       result.push_back(grouped(scene.bonds->counts.singular) +
-                       " families miss a moment condition: uniform strain is not exact there (thin parts, "
-                       "flat cells, small horizon); see the field \"family status\"");
+                       " families miss a moment condition: uniform strain is not exact there (corners, thin "
+                       "parts, flat cells, small horizon); see the field \"family status\"");
     if (parameters.model.model == "ordinary")
       result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
     const double ratio = dealii::GridTools::maximal_cell_diameter(scene.mesh->triangulation) /

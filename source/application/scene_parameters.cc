@@ -55,7 +55,11 @@ namespace perideal
     comparison.declare(prm);
     prm.enter_subsection("Output");
     prm.add_parameter(
-      "Fields", fields, "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()));
+      "Fields",
+      fields,
+      "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()) +
+        ". family status adds up 1: fallback weights, 2: a moment condition missed, 4: negative "
+        "deviatoric weights met");
     prm.leave_subsection();
   }
 

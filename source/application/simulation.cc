@@ -7,6 +7,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/mesh/create_mesh.h>
+#include <perideal/operators/mirror_reactions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 
@@ -224,14 +225,11 @@ namespace perideal
   {
     scene.system->initialize(displacement);
     scene.system->initialize(external_force);
+    check_finite(scene.faces, scene.loads, scene.condition_boundaries, 1., communicator);
     apply_loads(1.);
     NodalVector residual;
     scene.system->initialize(residual);
     scene.system->residual(residual, external_force, displacement);
-    if (!std::isfinite(residual.l2_norm()))
-      throw InputError("a load or a prescribed displacement is not a finite number somewhere on its boundary")
-        .parameter("Boundary conditions")
-        .hint("check the formulas for poles and roots of negative numbers");
     if (scene.null_space.share_in(residual) > 1e-6)
       throw InputError("the loads push the body along a rigid-body motion that nothing holds")
         .parameter("Boundary conditions/Rigid body motions")
@@ -269,7 +267,8 @@ namespace perideal
         "the linear solver (" + scene.linear_solver->name() + ") stopped at t = " + short_number(time) +
         " after " + std::to_string(result.iterations) + " iterations at a relative residual of " +
         short_number(result.residuals.back()) + ", not at " + short_number(parameters.solver.tolerance) +
-        "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, take "
+        "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, enlarge Nodes/Horizon "
+        "factor, take "
         "another Solver/Preconditioner, or check the scene with --check");
   }
 
@@ -295,13 +294,13 @@ namespace perideal
       internal_force.begin(), internal_force.begin() + free_force.locally_owned_size(), free_force.begin());
 
     // Linear: the strain energy is half the work of all forces that act on the body.
-    const double image_work    = scene.mirror->prescribed_work(internal_force);
-    const double strain_energy = 0.5 * (free_force * displacement + image_work);
+    const auto   from_images   = sum_mirror_reactions(*scene.system, scene.loads.conditions.size());
+    const double strain_energy = 0.5 * (free_force * displacement + from_images.work);
     free_force -= external_force;
-    const auto   held_reactions  = scene.held.sum_by_condition(free_force, communicator);
-    const auto   image_reactions = scene.mirror->sum_by_condition(internal_force);
-    const double external_work   = 0.5 * (external_force * displacement +
-                                        scene.held.work(free_force, displacement, communicator) + image_work);
+    const auto   held_reactions = scene.held.sum_by_condition(free_force, communicator);
+    const double external_work =
+      0.5 * (external_force * displacement + scene.held.work(free_force, displacement, communicator) +
+             from_images.work);
 
     history->add("step", number);
     history->add("time [s]", time);
@@ -313,9 +312,10 @@ namespace perideal
       if (scene.loads.conditions[k].prescribes_displacement())
         for (int d = 0; d < dim; ++d)
           {
-            const std::string &name = scene.loads.conditions[k].name;
-            const double value = parameters.loads.displacement_treatment == "mirror" ? image_reactions[k][d] :
-                                                                                       held_reactions[k][d];
+            const std::string &name  = scene.loads.conditions[k].name;
+            const double       value = parameters.loads.displacement_treatment == "mirror" ?
+                                         from_images.force[k][d] :
+                                         held_reactions[k][d];
             history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
             reactions[name].push_back(value);
           }

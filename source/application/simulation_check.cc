@@ -35,7 +35,7 @@ namespace perideal
           if (scene.nodes->material[i] == id)
             largest_horizon = std::max(largest_horizon, scene.nodes->horizon[i]);
         largest_horizon = dealii::Utilities::MPI::max(largest_horizon, communicator);
-        screen << "material    " << id << ": ";
+        screen << "material    " << scene.mesh->material_name(id) << ": ";
         if (material.fracture_energy > 0)
           screen << "critical stretch "
                  << short_number(ordinary_critical_stretch(

@@ -2,11 +2,14 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/boundary_faces.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -92,6 +95,38 @@ namespace perideal
     return result;
   }
 
+  template <int dim>
+  void check_finite(const std::vector<BoundaryFace<dim>>                       &faces,
+                    const Loads<dim>                                           &loads,
+                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                    const double                                                time,
+                    MPI_Comm                                                    communicator)
+  {
+    for (unsigned int k = 0; k < loads.conditions.size(); ++k)
+      {
+        // The faces may be on any rank; all ranks must agree on the complaint.
+        const auto check = [&](const SpaceTimeFunction<dim> &function, const std::string &name) {
+          unsigned int bad = 0;
+          if (function.is_present())
+            for (const BoundaryFace<dim> &face : faces)
+              if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0 &&
+                  !std::isfinite(function.value(face.centre, time)))
+                ++bad;
+          if (dealii::Utilities::MPI::max(bad, communicator) > 0)
+            throw InputError("this formula is not a finite number somewhere on its boundary")
+              .parameter("Boundary conditions/" + loads.conditions[k].name + "/" + name)
+              .hint("look for poles and for roots and logarithms of negative numbers");
+        };
+        const char *axes[] = {"x", "y", "z"};
+        for (int d = 0; d < dim; ++d)
+          {
+            check(loads.conditions[k].displacement[d], std::string("u_") + axes[d]);
+            check(loads.conditions[k].traction[d], std::string("t_") + axes[d]);
+          }
+        check(loads.conditions[k].pressure, "Pressure");
+      }
+  }
+
   template struct BoundaryFace<2>;
   template struct BoundaryFace<3>;
   template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const Nodes<2> &);
@@ -100,4 +135,14 @@ namespace perideal
                                                                                    const Loads<2> &);
   template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<3> &,
                                                                                    const Loads<3> &);
+  template void check_finite(const std::vector<BoundaryFace<2>> &,
+                             const Loads<2> &,
+                             const std::vector<std::vector<dealii::types::boundary_id>> &,
+                             const double,
+                             MPI_Comm);
+  template void check_finite(const std::vector<BoundaryFace<3>> &,
+                             const Loads<3> &,
+                             const std::vector<std::vector<dealii::types::boundary_id>> &,
+                             const double,
+                             MPI_Comm);
 } // namespace perideal

@@ -42,10 +42,9 @@ namespace perideal
                                 const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
     : MirrorLayer(real)
   {
-    n_conditions = loads.conditions.size();
     // All conditions of a boundary together make one mirror.
     std::map<dealii::types::boundary_id, std::array<int, dim>> condition_of;
-    for (unsigned int k = 0; k < n_conditions; ++k)
+    for (unsigned int k = 0; k < loads.conditions.size(); ++k)
       for (const auto id : boundaries[k])
         for (int d = 0; d < dim; ++d)
           if (loads.conditions[k].displacement[d].is_present())
@@ -159,13 +158,19 @@ namespace perideal
         if (!inside)
           continue;
         Image image;
-        image.parent = i;
-        image.source = i < n_real_nodes ? i : images[i - n_real_nodes].source;
-        image.plane  = plane_number;
-        image.foot   = foot;
+        image.parent        = i;
+        image.source        = i < n_real_nodes ? i : images[i - n_real_nodes].source;
+        image.plane         = plane_number;
+        image.foot          = foot;
+        const bool is_first = i < n_real_nodes;
         for (int d = 0; d < dim; ++d)
-          image.sign[d] =
-            (plane.condition[d] >= 0 ? -1. : 1.) * (i < n_real_nodes ? 1. : images[i - n_real_nodes].sign[d]);
+          {
+            const double parent_sign = is_first ? 1. : images[i - n_real_nodes].sign[d];
+            image.sign[d]            = plane.condition[d] >= 0 ? -parent_sign : parent_sign;
+            // A free component passes on what holds the image it is an image of.
+            image.condition[d] = plane.condition[d] >= 0 || is_first ? plane.condition[d] :
+                                                                       images[i - n_real_nodes].condition[d];
+          }
         images.push_back(image);
         all.position.push_back(all.position[i] + 2. * distance * plane.normal);
         all.volume.push_back(all.volume[i]);
@@ -207,27 +212,21 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>> MirrorLayer<dim>::sum_by_condition(const NodalVector &force) const
+  void MirrorLayer<dim>::boundary_values(NodalVector &values) const
   {
-    std::vector<dealii::Tensor<1, dim>> result(n_conditions);
+    values = 0.;
     for (LocalIndex k = 0; k < images.size(); ++k)
       for (int d = 0; d < dim; ++d)
-        if (planes[images[k].plane].condition[d] >= 0)
-          result[planes[images[k].plane].condition[d]][d] +=
-            force.local_element(dim * (n_real_nodes + k) + d);
-    for (auto &sum : result)
-      sum = dealii::Utilities::MPI::sum(sum, all.communicator);
-    return result;
+        values.local_element(dim * (n_real_nodes + k) + d) = 0.5 * images[k].offset[d];
   }
 
   template <int dim>
-  double MirrorLayer<dim>::prescribed_work(const NodalVector &force) const
+  void MirrorLayer<dim>::holders(NodalVector &numbers) const
   {
-    double sum = 0;
+    numbers = 0.;
     for (LocalIndex k = 0; k < images.size(); ++k)
       for (int d = 0; d < dim; ++d)
-        sum += force.local_element(dim * (n_real_nodes + k) + d) * 0.5 * images[k].offset[d];
-    return dealii::Utilities::MPI::sum(sum, all.communicator);
+        numbers.local_element(dim * (n_real_nodes + k) + d) = 1 + images[k].condition[d];
   }
 
   template class MirrorLayer<2>;

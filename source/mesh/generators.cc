@@ -100,6 +100,9 @@ namespace perideal
     // colorized: boundary ids in the order x min, x max, y min, ...
     dealii::GridGenerator::subdivided_hyper_rectangle(
       mesh.triangulation, counts, dealii::Point<dim>(), upper, true);
+    // It also numbers the cells by quadrant, which makes no materials.
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      cell->set_material_id(0);
     mesh.boundary_names = {{"left", 0}, {"right", 1}, {"bottom", 2}, {"top", 3}};
     if (dim == 3)
       mesh.boundary_names.insert({{"back", 4}, {"front", 5}});

@@ -72,6 +72,12 @@ namespace perideal
     return name_of(boundary_names, id);
   }
 
+  template <int dim>
+  std::string Mesh<dim>::material_name(const dealii::types::material_id id) const
+  {
+    return name_of(material_names, id);
+  }
+
   template class Mesh<2>;
   template class Mesh<3>;
 } // namespace perideal

@@ -63,11 +63,9 @@ namespace perideal
     for (LocalIndex i = 0; i < n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
         if (held[dim * i + d])
-          {
-            for (int e = 0; e < dim; ++e)
+          for (int e = 0; e < dim; ++e)
+            if (e != d)
               blocks[i][d][e] = blocks[i][e][d] = 0.;
-            blocks[i][d][d] = 1.;
-          }
     return blocks;
   }
 

@@ -127,6 +127,27 @@ namespace perideal
       }
   }
 
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyOperator<dim, n_sums, own_force_weights>::visit_bond_forces(
+    const typename BondOperator<dim>::VisitBond &visit) const
+  {
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+        {
+          const LocalIndex j = bonds.neighbour[k];
+          if (j == i)
+            continue;
+          const auto xi        = bond_vector(i, j);
+          double     extension = 0, magnitude = 0;
+          for (int d = 0; d < dim; ++d)
+            extension += xi[d] * (displacements[j].value[d] - displacements[i].value[d]);
+          magnitude = stiffness[k] * extension;
+          for (unsigned int a = 0; a < n_sums; ++a)
+            magnitude += force_weights()[a].near[k] * state[a][i] + force_weights()[a].far[k] * state[a][j];
+          visit(i, j, magnitude * xi);
+        }
+  }
+
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
   template class FamilyOperator<dim, n_sums, own_force_weights>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)

@@ -86,7 +86,8 @@ namespace perideal
         result.residuals.push_back(residual / first);
         if (progress)
           progress(iteration, residual / first);
-        return std::isfinite(residual) ? dealii::SolverControl::success : dealii::SolverControl::failure;
+        // NaN, or far above where it began: the iteration diverges.
+        return residual <= 1e6 * first ? dealii::SolverControl::success : dealii::SolverControl::failure;
       }
 
     private:
@@ -138,7 +139,10 @@ namespace perideal
 
       std::string name() const override
       {
-        return (symmetric ? "cg, " : "gmres, ") + parameters.preconditioner + " preconditioner";
+        return (symmetric             ? "cg, " :
+                system.is_symmetric() ? "gmres, " :
+                                        "gmres (the operator is not symmetric), ") +
+               parameters.preconditioner + " preconditioner";
       }
 
     private:

@@ -36,6 +36,15 @@ namespace perideal
   template <int dim>
   std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<dim>  &mesh,
                                                                           const Loads<dim> &loads);
+
+  /// Evaluates every prescribed function on its boundary. Collective.
+  /// @throws InputError naming a function that is not a finite number somewhere.
+  template <int dim>
+  void check_finite(const std::vector<BoundaryFace<dim>>                       &faces,
+                    const Loads<dim>                                           &loads,
+                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                    const double                                                time,
+                    MPI_Comm                                                    communicator);
 } // namespace perideal
 
 #endif

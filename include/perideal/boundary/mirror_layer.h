@@ -52,13 +52,13 @@ namespace perideal
     /// Evaluates the prescribed values at @p time.
     void set_time(const Loads<dim> &loads, const double time);
 
-    /// Sum by condition of a force on all nodes over the fictitious ones [N]. Collective.
-    std::vector<dealii::Tensor<1, dim>> sum_by_condition(const NodalVector &force) const;
+    /// Prescribed displacement of the boundary that each component of an image
+    /// reflects [m], over all nodes, 0 for real ones.
+    void boundary_values(NodalVector &values) const;
 
-    /// Work that a force on all nodes does on the prescribed values of the
-    /// mirrors: an image's force acts on the boundary, which moves by half the
-    /// image's offset [J]. Collective.
-    double prescribed_work(const NodalVector &force) const;
+    /// 1 + number of the condition that holds each component of an image, over
+    /// all nodes; 0 where it is free and for real nodes.
+    void holders(NodalVector &numbers) const;
 
   private:
     /// An image: u = sign u(source) + offset, the offset a sum of prescribed values.
@@ -66,6 +66,8 @@ namespace perideal
     {
       LocalIndex             source;
       dealii::Tensor<1, dim> sign, offset;
+      /// Condition that holds each component, or -1.
+      std::array<int, dim> condition;
       /// Image of this earlier image, or of a real node if equal to source.
       LocalIndex         parent;
       unsigned int       plane;
@@ -89,8 +91,7 @@ namespace perideal
     LocalIndex         n_real_nodes;
     std::vector<Image> images;
     std::vector<Plane> planes;
-    unsigned int       n_conditions = 0;
-    bool               symmetric    = true;
+    bool               symmetric = true;
   };
 } // namespace perideal
 

@@ -51,6 +51,9 @@ namespace perideal
 
     /// Name of a boundary id, or its number as text where it has none.
     std::string boundary_name(const dealii::types::boundary_id id) const;
+
+    /// As boundary_name(), for cell groups.
+    std::string material_name(const dealii::types::material_id id) const;
   };
 } // namespace perideal
 

@@ -53,6 +53,13 @@ namespace perideal
     /// overlap and may lie in other ranks' rows; their sum is K.
     virtual void assemble(const AddBlock &add) const = 0;
 
+    /// Receives a bond's nodes (the first owned) and the force it puts on the first [N].
+    using VisitBond = std::function<void(const LocalIndex, const LocalIndex, const dealii::Tensor<1, dim> &)>;
+
+    /// Shows the bond forces of the last vmult(); a bond that the partition cuts
+    /// is shown on both ranks, from either end.
+    virtual void visit_bond_forces(const VisitBond &visit) const = 0;
+
     /// Sums of the last vmult() of an owned node: the dilatation first.
     virtual const std::vector<double> &dilatation() const = 0;
 

@@ -37,7 +37,7 @@ namespace perideal
     void
     residual(NodalVector &result, const NodalVector &external_force, const NodalVector &displacement) const;
 
-    /// dim x dim blocks of the diagonal, held rows and columns replaced by the identity.
+    /// dim x dim blocks of the diagonal; of held rows and columns only the diagonal is left.
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const;
 
     bool is_symmetric() const { return bonds->is_symmetric() && mirror->keeps_symmetry(); }

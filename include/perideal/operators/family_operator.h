@@ -30,7 +30,8 @@ namespace perideal
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
-    void                       assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+    void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+    void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
     const std::vector<double> &dilatation() const override { return sums[0]; }
     bool                       is_symmetric() const override { return symmetric; }
     std::size_t                memory_consumption() const override;
