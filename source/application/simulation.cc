@@ -197,8 +197,8 @@ namespace perideal
   {
     const double time          = static_cast<double>(number) / parameters.solver.load_steps;
     summary["solver"]["steps"] = number;
-    solve_equilibrium(time, displacement);
-    record_step(number, time, displacement);
+    solve_equilibrium(time);
+    record_step(number, time);
     write_fields(number, time);
   }
 
@@ -238,7 +238,7 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::solve_equilibrium(const double time, NodalVector &displacement)
+  void Simulation<dim>::solve_equilibrium(const double time)
   {
     const Timings::Scope scope(timings, "solve");
     apply_loads(time);
@@ -283,8 +283,7 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  Simulation<dim>::record_step(const unsigned int number, const double time, const NodalVector &displacement)
+  void Simulation<dim>::record_step(const unsigned int number, const double time)
   {
     NodalVector internal_force, free_force;
     scene.system->initialize_all(internal_force);

@@ -11,7 +11,6 @@ namespace perideal
                                       const Nodes<dim>               &nodes,
                                       const ElasticFem<dim>          &fem)
     : system(system)
-    , fem(fem)
     , smoother(system)
     , multigrid(fem, false)
     , vertex_unknowns(nodes.size())

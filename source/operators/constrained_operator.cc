@@ -28,7 +28,6 @@ namespace perideal
   template <int dim>
   void ConstrainedOperator<dim>::vmult(NodalVector &destination, const NodalVector &source) const
   {
-    ++applications;
     for (std::size_t i = 0; i < held.size(); ++i)
       masked.local_element(i) = held[i] ? 0. : source.local_element(i);
     mirror->extend(masked, false, extended);

@@ -11,8 +11,6 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
-#include <cmath>
-
 namespace perideal
 {
   void SolverParameters::declare(dealii::ParameterHandler &prm)

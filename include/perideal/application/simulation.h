@@ -56,9 +56,9 @@ namespace perideal
     void apply_loads(const double time);
     void check_loads();
     void step(const unsigned int number);
-    void solve_equilibrium(const double time, NodalVector &displacement);
+    void solve_equilibrium(const double time);
     void store_displacement();
-    void record_step(const unsigned int number, const double time, const NodalVector &displacement);
+    void record_step(const unsigned int number, const double time);
     void write_fields(const unsigned int number, const double time);
     void compare_at_end(const double time);
     void finish(const std::string &status);

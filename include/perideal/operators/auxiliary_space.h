@@ -32,7 +32,6 @@ namespace perideal
     void add_prolonged(NodalVector &fine, const NodalVector &coarse) const;
 
     const ConstrainedOperator<dim> &system;
-    const ElasticFem<dim>          &fem;
     BlockJacobi<dim>                smoother;
     AlgebraicMultigrid<dim>         multigrid;
 

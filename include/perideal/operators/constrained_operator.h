@@ -54,9 +54,6 @@ namespace perideal
     const BondOperator<dim> &bond_operator() const { return *bonds; }
     const MirrorLayer<dim>  &mirror_layer() const { return *mirror; }
 
-    /// Applications of vmult() so far.
-    unsigned int n_applications() const { return applications; }
-
   private:
     std::shared_ptr<const BondOperator<dim>>                   bonds;
     std::shared_ptr<const MirrorLayer<dim>>                    mirror;
@@ -64,7 +61,6 @@ namespace perideal
     GlobalIndex                                                first_global_node, n_global_nodes;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     mutable NodalVector                                        masked, extended, force;
-    mutable unsigned int                                       applications = 0;
   };
 } // namespace perideal
 
