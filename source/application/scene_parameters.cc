@@ -70,6 +70,7 @@ namespace perideal
     nodes.check();
     material.check();
     solver.check();
+    resolve();
     for (const std::string &field : field_names())
       {
         const auto known = output_field_names();
@@ -80,6 +81,26 @@ namespace perideal
             .allowed(join_choices(known))
             .nearest(nearest_name(field, known));
       }
+  }
+
+  void SceneParameters::resolve()
+  {
+    model.resolve(dimension);
+    const bool   consistent = model.is_consistent();
+    std::string &treatment  = loads.displacement_treatment;
+    if (treatment == "automatic")
+      treatment = consistent ? "face value" : "layer";
+    if (treatment == "face value" && !consistent)
+      throw InputError("only the consistent form reads values at faces")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer | reference | mirror for this model")
+        .hint("or set Material/Form = consistent");
+    if (treatment == "mirror" && consistent)
+      throw InputError("mirrored nodes have no cells, which the consistent form needs")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | face value | layer | reference for the consistent form");
   }
 
   std::vector<std::string> SceneParameters::field_names() const

@@ -78,6 +78,13 @@ namespace perideal
   }
 
   template <int dim>
+  bool Simulation<dim>::by_nodes() const
+  {
+    return parameters.loads.displacement_treatment == "layer" ||
+           parameters.loads.displacement_treatment == "reference";
+  }
+
+  template <int dim>
   void Simulation<dim>::make_mesh()
   {
     const Timings::Scope scope(timings, "mesh");
@@ -106,9 +113,12 @@ namespace perideal
       }
     else
       {
-        scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
-        scene.held =
-          HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size());
+        const bool at_faces = parameters.loads.displacement_treatment == "face value";
+        scene.mirror        = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
+        scene.held          = HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                                    scene.loads,
+                                    scene.condition_boundaries,
+                                    scene.nodes->size());
       }
     scene.families = std::make_shared<const Families<dim>>(scene.mirror->nodes());
     if (scene.families->statistics().min == 0)
@@ -121,12 +131,38 @@ namespace perideal
   void Simulation<dim>::weigh_bonds()
   {
     const Timings::Scope scope(timings, "setup");
-    const Timings::Scope part(timings, "setup: weights");
-    const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
-    scene.bonds = create_bond_operator<dim>(scene.families, *model, [&](const dealii::types::material_id id) {
+    const auto           moduli = [&](const dealii::types::material_id id) {
       const ElasticConstants &constants = scene.constants.at(id);
       return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
-    });
+    };
+    if (parameters.model.is_consistent())
+      {
+        {
+          const Timings::Scope part(timings, "setup: face gradient");
+          scene.gradient = std::make_shared<const FaceGradient<dim>>(
+            *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
+              return moduli(id).shear_modulus;
+            });
+          scene.face_values =
+            parameters.loads.displacement_treatment == "face value" ?
+              std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads, scene.condition_boundaries) :
+              std::make_shared<FaceValues<dim>>();
+        }
+        const Timings::Scope part(timings, "setup: weights");
+        scene.consistent = std::make_shared<ConsistentOperator<dim>>(
+          scene.families,
+          scene.gradient,
+          scene.face_values,
+          create_consistent<dim>(parameters.model, scene.mesh->thickness),
+          moduli);
+        scene.bonds = scene.consistent;
+      }
+    else
+      {
+        const Timings::Scope part(timings, "setup: weights");
+        const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
+        scene.bonds                = create_bond_operator<dim>(scene.families, *model, moduli);
+      }
     scene.system =
       std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
   }
@@ -134,7 +170,7 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::find_free_motions()
   {
-    // Which motions the held components allow: those of nodes, or of faces where images hold.
+    // Which motions the held components allow: those of nodes, or of faces where images or face values hold.
     const auto         box = dealii::GridTools::compute_bounding_box(scene.mesh->triangulation);
     dealii::Point<dim> lower, upper;
     for (int d = 0; d < dim; ++d)
@@ -143,12 +179,12 @@ namespace perideal
         upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), communicator);
       }
     RigidBodyMotions<dim> motions(lower + 0.5 * (upper - lower), lower.distance(upper));
-    const bool            mirrored = parameters.loads.displacement_treatment == "mirror";
     const HeldNodes<dim>  on_faces =
-      mirrored ? HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
-                  scene.held;
+      !by_nodes() ?
+         HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
+         scene.held;
     for (const auto &entry : on_faces.entries())
-      motions.hold(mirrored ? entry.point : scene.nodes->position[entry.node], entry.component);
+      motions.hold(!by_nodes() ? entry.point : scene.nodes->position[entry.node], entry.component);
 
     const auto free = motions.free_motions(communicator);
     if (free.empty())
@@ -206,8 +242,15 @@ namespace perideal
   void Simulation<dim>::apply_loads(const double time)
   {
     scene.mirror->set_time(scene.loads, time);
-    compute_nodal_forces(
-      *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
+    if (scene.consistent)
+      {
+        scene.face_values->set_time(scene.loads, time);
+        compute_nodal_forces(
+          *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
+      }
+    else
+      compute_nodal_forces(
+        *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
     if (parameters.loads.displacement_treatment == "reference")
       {
         // The reference belongs to the final loads; linear scenes scale.
@@ -293,13 +336,19 @@ namespace perideal
       internal_force.begin(), internal_force.begin() + free_force.locally_owned_size(), free_force.begin());
 
     // Linear: the strain energy is half the work of all forces that act on the body.
-    const auto   from_images   = sum_mirror_reactions(*scene.system, scene.loads.conditions.size());
-    const double strain_energy = 0.5 * (free_force * displacement + from_images.work);
+    auto from_faces = sum_mirror_reactions(*scene.system, scene.loads.conditions.size());
+    if (scene.consistent && !by_nodes())
+      {
+        const auto forces = scene.consistent->support_forces();
+        from_faces.force  = scene.face_values->sum_by_condition(forces, communicator);
+        from_faces.work   = scene.face_values->work(forces, communicator);
+      }
+    const double strain_energy = 0.5 * (free_force * displacement + from_faces.work);
     free_force -= external_force;
     const auto   held_reactions = scene.held.sum_by_condition(free_force, communicator);
     const double external_work =
       0.5 * (external_force * displacement + scene.held.work(free_force, displacement, communicator) +
-             from_images.work);
+             from_faces.work);
 
     history->add("step", number);
     history->add("time [s]", time);
@@ -312,9 +361,7 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           {
             const std::string &name  = scene.loads.conditions[k].name;
-            const double       value = parameters.loads.displacement_treatment == "mirror" ?
-                                         from_images.force[k][d] :
-                                         held_reactions[k][d];
+            const double       value = by_nodes() ? held_reactions[k][d] : from_faces.force[k][d];
             history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
             reactions[name].push_back(value);
           }

@@ -5,6 +5,21 @@
 
 namespace perideal
 {
+  namespace
+  {
+    template <int dim>
+    void
+    set_to_body_force(const Nodes<dim> &nodes, const Loads<dim> &loads, const double time, NodalVector &force)
+    {
+      for (LocalIndex i = 0; i < nodes.size(); ++i)
+        {
+          const auto body_force = loads.body_force_at(nodes.position[i], time);
+          for (int d = 0; d < dim; ++d)
+            force.local_element(dim * i + d) = body_force[d] * nodes.volume[i];
+        }
+    }
+  } // namespace
+
   template <int dim>
   void compute_nodal_forces(const Nodes<dim>                                           &nodes,
                             const std::vector<BoundaryFace<dim>>                       &faces,
@@ -13,13 +28,7 @@ namespace perideal
                             const double                                                time,
                             NodalVector                                                &force)
   {
-    force = 0.;
-    for (LocalIndex i = 0; i < nodes.size(); ++i)
-      {
-        const auto body_force = loads.body_force_at(nodes.position[i], time);
-        for (int d = 0; d < dim; ++d)
-          force.local_element(dim * i + d) = body_force[d] * nodes.volume[i];
-      }
+    set_to_body_force(nodes, loads, time, force);
     for (std::size_t k = 0; k < loads.conditions.size(); ++k)
       if (loads.conditions[k].prescribes_traction())
         for (const BoundaryFace<dim> &face : faces)
@@ -31,16 +40,46 @@ namespace perideal
             }
   }
 
-  template void compute_nodal_forces(const Nodes<2> &,
-                                     const std::vector<BoundaryFace<2>> &,
-                                     const Loads<2> &,
-                                     const std::vector<std::vector<dealii::types::boundary_id>> &,
-                                     const double,
+  template <int dim>
+  void compute_nodal_forces(const Nodes<dim>                                           &nodes,
+                            const FaceGradient<dim>                                    &gradient,
+                            const Loads<dim>                                           &loads,
+                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                            const double                                                time,
+                            NodalVector                                                &force)
+  {
+    // The virtual work of a traction, t v_f A, acts on the nodes that make v_f.
+    std::vector<dealii::Tensor<1, dim>> of_faces(gradient.graph().n_local());
+    const auto                         &points = gradient.boundary_points();
+    const auto                         &rows   = gradient.boundary_rows();
+    for (std::size_t k = 0; k < loads.conditions.size(); ++k)
+      if (loads.conditions[k].prescribes_traction())
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (std::count(boundaries[k].begin(), boundaries[k].end(), points[p].boundary) > 0)
+            {
+              const double area = points[p].area.norm();
+              const auto   pull = area * Loads<dim>::traction(
+                                         loads.conditions[k], points[p].point, points[p].area / area, time);
+              for (BondIndex e = rows.first[p]; e < rows.first[p + 1]; ++e)
+                of_faces[rows.column[e]] += rows.value[e] * pull;
+            }
+    set_to_body_force(nodes, loads, time, force);
+    const auto sums = gradient.graph().sum_to_owners(of_faces);
+    for (LocalIndex i = 0; i < nodes.size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) += sums[i][d];
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, Faces)                                                                     \
+  template void compute_nodal_forces(const Nodes<dim> &,                                                     \
+                                     const Faces &,                                                          \
+                                     const Loads<dim> &,                                                     \
+                                     const std::vector<std::vector<dealii::types::boundary_id>> &,           \
+                                     const double,                                                           \
                                      NodalVector &);
-  template void compute_nodal_forces(const Nodes<3> &,
-                                     const std::vector<BoundaryFace<3>> &,
-                                     const Loads<3> &,
-                                     const std::vector<std::vector<dealii::types::boundary_id>> &,
-                                     const double,
-                                     NodalVector &);
+  PERIDEAL_INSTANTIATE(2, std::vector<BoundaryFace<2>>)
+  PERIDEAL_INSTANTIATE(3, std::vector<BoundaryFace<3>>)
+  PERIDEAL_INSTANTIATE(2, FaceGradient<2>)
+  PERIDEAL_INSTANTIATE(3, FaceGradient<3>)
+#undef PERIDEAL_INSTANTIATE
 } // namespace perideal

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
 #include <perideal/base/registry.h>
 #include <perideal/materials/extended_ordinary.h>
 #include <perideal/materials/influence_function.h>
 #include <perideal/materials/models.h>
+
+#include <cmath>
+#include <cstdlib>
 #include <perideal/materials/ordinary.h>
 
 namespace perideal
@@ -51,9 +55,14 @@ namespace perideal
     prm.add_parameter(
       "Form",
       form,
-      "Force of the extended ordinary model: paper: as published, not the gradient of an energy, "
-      "non-symmetric; energy: the gradient of the strain energy, symmetric",
-      Selection(selection(ExtendedOrdinary<2>::form_names())));
+      "Force of the extended ordinary model: consistent: strain from the faces of the mesh, bonds "
+      "stabilise, symmetric, the most accurate in statics; energy: the gradient of the strain energy "
+      "over bonds, symmetric; paper: as published, not the gradient of an energy, non-symmetric",
+      Selection("consistent|" + selection(ExtendedOrdinary<2>::form_names())));
+    prm.add_parameter("Stabilisation",
+                      stabilisation,
+                      "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 0.9 in 2-D, 0.4 "
+                      "in 3-D, where errors are smallest");
     prm.leave_subsection();
 
     prm.enter_subsection("Nodes");
@@ -61,9 +70,32 @@ namespace perideal
       "Influence function",
       influence_function,
       "How much a bond counts by its length over the horizon: 1, 1/s, exp(-(2s)^2), or the cubic "
-      "B-spline that vanishes at s = 1",
-      Selection(selection(InfluenceFunction::names())));
+      "B-spline that vanishes at s = 1; automatic: the spline for the consistent form, else constant",
+      Selection("automatic|" + selection(InfluenceFunction::names())));
     prm.leave_subsection();
+  }
+
+  void ModelParameters::resolve(const int dimension)
+  {
+    if (influence_function == "automatic")
+      influence_function = is_consistent() ? Consistent<2>::best_influence : "constant";
+    if (stabilisation == "automatic")
+      stabilisation = std::to_string(dimension == 2 ? Consistent<2>::best_stabilisation :
+                                                      Consistent<3>::best_stabilisation);
+    char        *end   = nullptr;
+    const double value = std::strtod(stabilisation.c_str(), &end);
+    if (stabilisation.empty() || *end != 0 || !(value > 0) || !std::isfinite(value))
+      throw InputError("the stabilisation is not a positive number")
+        .parameter("Material/Stabilisation")
+        .given(stabilisation)
+        .allowed("automatic, or a number > 0; without it the consistent form has modes without energy");
+  }
+
+  template <int dim>
+  Consistent<dim> create_consistent(const ModelParameters &parameters, const double thickness)
+  {
+    return Consistent<dim>(
+      InfluenceFunction(parameters.influence_function), std::stod(parameters.stabilisation), thickness);
   }
 
   template <int dim>
@@ -72,6 +104,8 @@ namespace perideal
     return models<dim>().get(parameters.model)(parameters, thickness);
   }
 
+  template Consistent<2>                   create_consistent(const ModelParameters &, const double);
+  template Consistent<3>                   create_consistent(const ModelParameters &, const double);
   template std::unique_ptr<LinearModel<2>> create_model(const ModelParameters &, const double);
   template std::unique_ptr<LinearModel<3>> create_model(const ModelParameters &, const double);
 } // namespace perideal

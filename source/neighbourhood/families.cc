@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/halo.h>
+#include <perideal/nodes/node_partitioner.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/memory_consumption.h>
@@ -194,12 +195,8 @@ namespace perideal
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
   Families<dim>::make_partitioner(const unsigned int n_components) const
   {
-    dealii::IndexSet owned(n_global * n_components), ghosts(n_global * n_components);
-    owned.add_range(first_global * n_components, (first_global + n_owned_nodes) * n_components);
-    for (const GlobalIndex number : ghost_number)
-      ghosts.add_range(number * n_components, (number + 1) * n_components);
-    ghosts.compress();
-    return std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+    return make_node_partitioner(
+      first_global, n_owned_nodes, n_global, ghost_number, n_components, communicator);
   }
 
   template <int dim>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/nodes/node_partitioner.h>
 #include <perideal/operators/constrained_operator.h>
 
 #include <algorithm>
@@ -17,9 +18,8 @@ namespace perideal
     , n_global_nodes(nodes.n_global)
   {
     AssertDimension(held.size(), static_cast<std::size_t>(dim) * nodes.size());
-    dealii::IndexSet owned(dim * nodes.n_global);
-    owned.add_range(dim * nodes.first_global, dim * (nodes.first_global + nodes.size()));
-    partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, nodes.communicator);
+    partitioner =
+      make_node_partitioner(nodes.first_global, nodes.size(), nodes.n_global, {}, dim, nodes.communicator);
     masked.reinit(partitioner);
     bonds->initialize(extended);
     bonds->initialize(force);
@@ -41,7 +41,7 @@ namespace perideal
                                                 const NodalVector &displacement) const
   {
     mirror->extend(displacement, true, extended);
-    bonds->vmult(force_on_all, extended);
+    bonds->internal_force(force_on_all, extended);
   }
 
   template <int dim>

@@ -70,10 +70,12 @@ namespace perideal
     prm.add_parameter(
       "Displacement treatment",
       displacement_treatment,
-      "How prescribed displacements reach the nodes: layer: nodes of the cells at the boundary "
+      "How prescribed displacements reach the nodes: face value: in the place of interpolated values at "
+      "the boundary's faces (consistent form only); layer: nodes of the cells at the boundary "
       "take the boundary's value; reference: they take the reference solution's value at the "
-      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary",
-      dealii::Patterns::Selection("layer|reference|mirror"));
+      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary; "
+      "automatic: face value for the consistent form, else layer",
+      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror"));
     prm.add_parameter(
       "Rigid body motions",
       rigid_body_motions,

@@ -54,11 +54,32 @@ namespace perideal::test
       mesh->triangulation);
     for (const auto id : mesh->triangulation.get_boundary_ids())
       mesh->boundary_ids.insert(id);
+    // The generator colours the octants as materials.
+    for (const auto &cell : mesh->triangulation.cell_iterators())
+      cell->set_material_id(0);
     mesh->material_ids.insert(0);
     return mesh;
   }
 
-  /// Boxes of every kind the families meet: regular, distorted, thin.
+  /// As make_box(), with the cells within @p radius of a point refined once: faces hang.
+  template <int dim>
+  std::unique_ptr<Mesh<dim>> make_refined_box(const std::vector<unsigned int> &cells,
+                                              const dealii::Point<dim>        &point,
+                                              const double                     radius,
+                                              MPI_Comm                         communicator = MPI_COMM_WORLD)
+  {
+    dealii::Point<dim> size;
+    for (int d = 0; d < dim; ++d)
+      size[d] = 1.;
+    auto mesh = make_box<dim>(cells, size, 0.2, communicator);
+    for (const auto &cell : mesh->triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->center().distance(point) < radius)
+        cell->set_refine_flag();
+    mesh->triangulation.execute_coarsening_and_refinement();
+    return mesh;
+  }
+
+  /// Boxes of every kind the families meet: regular, distorted, thin, with hanging faces.
   template <int dim>
   std::vector<std::unique_ptr<Mesh<dim>>> make_boxes(MPI_Comm communicator = MPI_COMM_WORLD)
   {
@@ -68,11 +89,13 @@ namespace perideal::test
         result.push_back(make_box<2>({7, 6}, {1., 0.9}, 0., communicator));
         result.push_back(make_box<2>({8, 7}, {1., 1.}, 0.3, communicator));
         result.push_back(make_box<2>({12, 4}, {2., 0.5}, 0.2, communicator));
+        result.push_back(make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3, communicator));
       }
     else
       {
         result.push_back(make_box<3>({5, 5, 5}, {1., 1., 1.}, 0., communicator));
         result.push_back(make_box<3>({5, 5, 4}, {1., 1., 0.8}, 0.25, communicator));
+        result.push_back(make_refined_box<3>({4, 4, 4}, {0.4, 0.4, 0.4}, 0.25, communicator));
       }
     return result;
   }

@@ -57,6 +57,10 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
+    /// Replaces "automatic" by what it means for this scene.
+    /// @throws InputError on choices that do not go together.
+    void resolve();
+
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;
   };

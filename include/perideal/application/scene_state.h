@@ -3,14 +3,17 @@
 #define perideal_application_scene_state_h
 
 #include <perideal/boundary/boundary_faces.h>
+#include <perideal/boundary/face_values.h>
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/null_space.h>
+#include <perideal/quadrature/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
 
 #include <deal.II/base/tensor.h>
@@ -38,13 +41,18 @@ namespace perideal
     std::vector<std::vector<dealii::types::boundary_id>> condition_boundaries;
     ConstantsByMaterial                                  constants;
 
-    std::unique_ptr<Nodes<dim>>          nodes;
-    std::vector<BoundaryFace<dim>>       faces;
-    HeldNodes<dim>                       held;
-    std::shared_ptr<MirrorLayer<dim>>    mirror;
-    std::shared_ptr<const Families<dim>> families;
+    std::unique_ptr<Nodes<dim>>    nodes;
+    std::vector<BoundaryFace<dim>> faces;
+    HeldNodes<dim>                 held;
+    /// Where the scene needs gradients: the consistent form does.
+    std::shared_ptr<const FaceGradient<dim>> gradient;
+    std::shared_ptr<FaceValues<dim>>         face_values;
+    std::shared_ptr<MirrorLayer<dim>>        mirror;
+    std::shared_ptr<const Families<dim>>     families;
 
-    std::shared_ptr<BondOperator<dim>>        bonds;
+    std::shared_ptr<BondOperator<dim>> bonds;
+    /// The same object as bonds, where the form is consistent.
+    std::shared_ptr<ConsistentOperator<dim>>  consistent;
     std::unique_ptr<ConstrainedOperator<dim>> system;
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;

@@ -63,6 +63,9 @@ namespace perideal
     void compare_at_end(const double time);
     void finish(const std::string &status);
 
+    /// Whether prescribed displacements hold nodes, and not images or faces.
+    bool by_nodes() const;
+
     /// The material of a cell group.
     const MaterialProperties &properties_of(const dealii::types::material_id id) const;
 

@@ -3,6 +3,7 @@
 #define perideal_boundary_nodal_forces_h
 
 #include <perideal/boundary/boundary_faces.h>
+#include <perideal/quadrature/face_gradient.h>
 
 #include <vector>
 
@@ -17,6 +18,16 @@ namespace perideal
   template <int dim>
   void compute_nodal_forces(const Nodes<dim>                                           &nodes,
                             const std::vector<BoundaryFace<dim>>                       &faces,
+                            const Loads<dim>                                           &loads,
+                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                            const double                                                time,
+                            NodalVector                                                &force);
+
+  /// As above for the consistent form: a traction acts on the values that the
+  /// face gradient interpolates at the boundary's quadrature points. Collective.
+  template <int dim>
+  void compute_nodal_forces(const Nodes<dim>                                           &nodes,
+                            const FaceGradient<dim>                                    &gradient,
                             const Loads<dim>                                           &loads,
                             const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
                             const double                                                time,

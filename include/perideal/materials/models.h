@@ -2,6 +2,7 @@
 #ifndef perideal_materials_models_h
 #define perideal_materials_models_h
 
+#include <perideal/materials/consistent.h>
 #include <perideal/materials/linear_model.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -15,12 +16,27 @@ namespace perideal
   struct ModelParameters
   {
     std::string model              = "extended ordinary";
-    std::string form               = "energy";
-    std::string influence_function = "constant";
+    std::string form               = "consistent";
+    std::string influence_function = "automatic";
+    std::string stabilisation      = "automatic";
 
     void declare(dealii::ParameterHandler &prm);
+
+    /// Puts what serves the model best in the place of "automatic".
+    /// @throws InputError on a stabilisation that is not a positive number.
+    void resolve(const int dimension);
+
+    /// The consistent form of the extended ordinary model, which needs the face
+    /// gradient of the mesh and is no LinearModel.
+    bool is_consistent() const { return model == "extended ordinary" && form == "consistent"; }
   };
 
+  /// The consistent form, of resolved parameters.
+  /// @param thickness of a two-dimensional body [m], 1 in 3-D
+  template <int dim>
+  Consistent<dim> create_consistent(const ModelParameters &parameters, const double thickness);
+
+  /// Any other model, of resolved parameters.
   /// @param thickness of a two-dimensional body [m], 1 in 3-D
   template <int dim>
   std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters &parameters, const double thickness);

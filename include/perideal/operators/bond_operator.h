@@ -3,6 +3,7 @@
 #define perideal_operators_bond_operator_h
 
 #include <perideal/base/types.h>
+#include <perideal/materials/consistent.h>
 #include <perideal/materials/linear_model.h>
 #include <perideal/neighbourhood/families.h>
 
@@ -20,12 +21,6 @@ namespace perideal
     GlobalIndex fallback = 0, singular = 0, indefinite = 0;
   };
 
-  /// Bulk and shear modulus [Pa] by material id.
-  struct Moduli
-  {
-    double bulk_modulus = 0, shear_modulus = 0;
-  };
-
   /**
    * The linear internal force of a bond model, K u, over all nodes of this rank
    * (fictitious ones included), matrix-free. Boundary conditions are none of
@@ -40,6 +35,12 @@ namespace perideal
     /// force = K displacement, [N] from [m]; the force the bonds resist with,
     /// so that K u = external force. Both vectors have owned nodes, dim values each. Collective.
     virtual void vmult(NodalVector &force, const NodalVector &displacement) const = 0;
+
+    /// The same with what boundary values that the operator itself carries add to K u.
+    virtual void internal_force(NodalVector &force, const NodalVector &displacement) const
+    {
+      vmult(force, displacement);
+    }
 
     /// The dim x dim blocks on the diagonal of K, by owned node [N/m]. Collective.
     virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
@@ -58,10 +59,14 @@ namespace perideal
 
     /// Shows the bond forces of the last vmult(); a bond that the partition cuts
     /// is shown on both ranks, from either end.
-    virtual void visit_bond_forces(const VisitBond &visit) const = 0;
+    /// Only for models whose forces are all bond forces.
+    virtual void visit_bond_forces(const VisitBond &) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
 
-    /// Sums of the last vmult() of an owned node: the dilatation first.
-    virtual const std::vector<double> &dilatation() const = 0;
+    /// Dilatation of the last vmult(), by owned node.
+    virtual std::vector<double> dilatation() const = 0;
 
     virtual bool is_symmetric() const = 0;
 

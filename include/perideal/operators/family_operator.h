@@ -2,9 +2,9 @@
 #ifndef perideal_operators_family_operator_h
 #define perideal_operators_family_operator_h
 
+#include <perideal/base/lanes.h>
 #include <perideal/neighbourhood/bond_list.h>
 #include <perideal/operators/bond_operator.h>
-#include <perideal/operators/lanes.h>
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -30,11 +30,14 @@ namespace perideal
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
-    void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
-    void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
-    const std::vector<double> &dilatation() const override { return sums[0]; }
-    bool                       is_symmetric() const override { return symmetric; }
-    std::size_t                memory_consumption() const override;
+    void                assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+    void                visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
+    std::vector<double> dilatation() const override
+    {
+      return {sums[0].begin(), sums[0].begin() + families->n_owned()};
+    }
+    bool        is_symmetric() const override { return symmetric; }
+    std::size_t memory_consumption() const override;
 
   private:
     /// Values of the two ends of every bond, by slot.

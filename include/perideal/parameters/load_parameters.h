@@ -32,8 +32,9 @@ namespace perideal
   /// Sections "Boundary conditions" and "Body force", as text.
   struct LoadParameters
   {
-    /// How prescribed displacements reach the peridynamic nodes: layer | reference | mirror.
-    std::string displacement_treatment = "layer";
+    /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
+    /// layer | reference | mirror.
+    std::string displacement_treatment = "automatic";
     /// What to do about rigid-body motions that no condition holds: error | remove.
     std::string                        rigid_body_motions = "error";
     std::vector<BoundaryConditionText> conditions;

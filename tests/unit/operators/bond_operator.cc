@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
 #include <perideal/operators/assembled_matrix.h>
+#include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/parameters/elastic_constants.h>
 
@@ -28,6 +29,7 @@ namespace
   {
     std::vector<Variant> result;
     for (const auto &model : {std::pair<std::string, std::string>("ordinary", "energy"),
+                              {"extended ordinary", "consistent"},
                               {"extended ordinary", "paper"},
                               {"extended ordinary", "energy"}})
       if (dim == 3)
@@ -44,16 +46,26 @@ namespace
   struct FreeBody
   {
     FreeBody(const Mesh<dim> &mesh, const Variant &variant)
-      : body(mesh)
+      : variant(variant)
+      , body(mesh)
       , constants{70e9, variant.poisson_ratio, variant.assumption}
     {
       ModelParameters parameters;
       parameters.model = variant.model;
       parameters.form  = variant.form;
-      const auto model = create_model<dim>(parameters, 1.);
-      bonds  = create_bond_operator<dim>(body.families, *model, [&](const dealii::types::material_id) {
+      parameters.resolve(dim);
+      const auto moduli = [&](const dealii::types::material_id) {
         return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
-      });
+      };
+      if (parameters.is_consistent())
+        bonds = std::make_shared<ConsistentOperator<dim>>(
+          body.families,
+          std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; }),
+          std::make_shared<const FaceValues<dim>>(),
+          create_consistent<dim>(parameters, 1.),
+          moduli);
+      else
+        bonds = create_bond_operator<dim>(body.families, *create_model<dim>(parameters, 1.), moduli);
       mirror = std::make_shared<MirrorLayer<dim>>(body.nodes);
       bonds->initialize(force);
       bonds->initialize(displacement);
@@ -88,6 +100,7 @@ namespace
       return value;
     }
 
+    Variant                            variant;
     test::Body<dim>                    body;
     ElasticConstants                   constants;
     std::shared_ptr<BondOperator<dim>> bonds;
@@ -233,14 +246,17 @@ namespace
     });
   }
 
-  /// The energy form: no negative eigenvalue, and none zero beyond the rigid-body motions.
+  /// Energy and consistent form: no negative eigenvalue, and none zero beyond the rigid-body motions.
   template <int dim>
   void expect_spectrum()
   {
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       return;
     for_all<dim>([](FreeBody<dim> &free_body) {
-      if (!free_body.bonds->is_symmetric())
+      // The ordinary model below nu = 1/4 takes energy away with the dilatation,
+      // which families that are not spherical do not give back.
+      if (!free_body.bonds->is_symmetric() ||
+          (free_body.variant.model == "ordinary" && free_body.variant.poisson_ratio < 0.25))
         return;
       const Eigen::MatrixXd                                matrix = dense_matrix(free_body);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix, Eigen::EigenvaluesOnly);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef perideal_operators_lanes_h
-#define perideal_operators_lanes_h
+#ifndef perideal_base_lanes_h
+#define perideal_base_lanes_h
 
 /**
  * Four doubles at once for the bond loops, on compiler vectors: they become

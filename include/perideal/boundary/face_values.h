@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_boundary_face_values_h
+#define perideal_boundary_face_values_h
+
+#include <perideal/parameters/load_parameters.h>
+#include <perideal/quadrature/face_gradient.h>
+
+#include <array>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Prescribed displacements as values at the faces of the boundary: they take
+   * the place of the interpolated ones in the face gradient, component by
+   * component, so that no node is held and the operator keeps its symmetry.
+   */
+  template <int dim>
+  class FaceValues
+  {
+  public:
+    /// Nothing is prescribed.
+    FaceValues() = default;
+
+    FaceValues(const FaceGradient<dim>                                    &gradient,
+               const Loads<dim>                                           &loads,
+               const std::vector<std::vector<dealii::types::boundary_id>> &boundaries);
+
+    static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
+
+    /// A boundary point with at least one prescribed component.
+    struct Entry
+    {
+      /// Number among FaceGradient::boundary_points().
+      unsigned int       point;
+      dealii::Point<dim> position;
+      /// Condition that prescribes each component, or `free`.
+      std::array<unsigned int, dim> condition;
+      /// Prescribed values [m]; 0 where free.
+      dealii::Tensor<1, dim> value;
+    };
+    const std::vector<Entry> &entries() const { return list; }
+
+    /// Evaluates the conditions.
+    void set_time(const Loads<dim> &loads, const double time);
+
+    /// Sums by condition of forces on the body [N] at the entries. Collective.
+    std::vector<dealii::Tensor<1, dim>> sum_by_condition(const std::vector<dealii::Tensor<1, dim>> &forces,
+                                                         MPI_Comm communicator) const;
+
+    /// Sum of force times prescribed value [J]. Collective.
+    double work(const std::vector<dealii::Tensor<1, dim>> &forces, MPI_Comm communicator) const;
+
+  private:
+    std::vector<Entry> list;
+    unsigned int       n_conditions = 0;
+  };
+} // namespace perideal
+
+#endif

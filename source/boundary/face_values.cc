@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/face_values.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  FaceValues<dim>::FaceValues(const FaceGradient<dim>                                    &gradient,
+                              const Loads<dim>                                           &loads,
+                              const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
+    : n_conditions(loads.conditions.size())
+  {
+    const auto &points = gradient.boundary_points();
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        Entry entry{p, points[p].point, {}, {}};
+        entry.condition.fill(free);
+        for (unsigned int k = 0; k < n_conditions; ++k)
+          if (std::count(boundaries[k].begin(), boundaries[k].end(), points[p].boundary) > 0)
+            for (int d = 0; d < dim; ++d)
+              if (loads.conditions[k].displacement[d].is_present())
+                entry.condition[d] = k;
+        if (std::any_of(
+              entry.condition.begin(), entry.condition.end(), [](const auto k) { return k != free; }))
+          list.push_back(entry);
+      }
+  }
+
+  template <int dim>
+  void FaceValues<dim>::set_time(const Loads<dim> &loads, const double time)
+  {
+    for (Entry &entry : list)
+      for (int d = 0; d < dim; ++d)
+        if (entry.condition[d] != free)
+          entry.value[d] = loads.conditions[entry.condition[d]].displacement[d].value(entry.position, time);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  FaceValues<dim>::sum_by_condition(const std::vector<dealii::Tensor<1, dim>> &forces,
+                                    MPI_Comm                                   communicator) const
+  {
+    AssertDimension(forces.size(), list.size());
+    std::vector<dealii::Tensor<1, dim>> result(n_conditions);
+    for (std::size_t e = 0; e < list.size(); ++e)
+      for (int d = 0; d < dim; ++d)
+        if (list[e].condition[d] != free)
+          result[list[e].condition[d]][d] += forces[e][d];
+    for (auto &sum : result)
+      sum = dealii::Utilities::MPI::sum(sum, communicator);
+    return result;
+  }
+
+  template <int dim>
+  double FaceValues<dim>::work(const std::vector<dealii::Tensor<1, dim>> &forces, MPI_Comm communicator) const
+  {
+    AssertDimension(forces.size(), list.size());
+    double result = 0;
+    for (std::size_t e = 0; e < list.size(); ++e)
+      result += forces[e] * list[e].value;
+    return dealii::Utilities::MPI::sum(result, communicator);
+  }
+
+  template class FaceValues<2>;
+  template class FaceValues<3>;
+} // namespace perideal

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/boundary_faces.h>
+#include <perideal/boundary/nodal_forces.h>
+#include <perideal/materials/models.h>
+#include <perideal/operators/consistent_operator.h>
+#include <perideal/parameters/elastic_constants.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+using namespace perideal;
+
+namespace
+{
+  const char *axes[] = {"x", "y", "z"};
+
+  /// A body whose boundaries (numbered as by hyper_rectangle) have conditions.
+  template <int dim>
+  struct LoadedBody
+  {
+    LoadedBody(const Mesh<dim>                     &mesh,
+               const LoadParameters                &text,
+               const std::vector<ElasticConstants> &materials)
+      : body(mesh)
+      , loads(text)
+      , boundaries(resolve_boundaries(mesh, loads))
+      , moduli([materials](const dealii::types::material_id id) {
+        return Moduli{materials[id].bulk_modulus(), materials[id].shear_modulus()};
+      })
+    {
+      ModelParameters parameters;
+      parameters.resolve(dim);
+      gradient = std::make_shared<const FaceGradient<dim>>(
+        mesh, body.nodes, [&](const auto id) { return moduli(id).shear_modulus; });
+      values = std::make_shared<FaceValues<dim>>(*gradient, loads, boundaries);
+      values->set_time(loads, 1.);
+      bonds = std::make_shared<ConsistentOperator<dim>>(
+        body.families, gradient, values, create_consistent<dim>(parameters, 1.), moduli);
+      for (NodalVector *vector : {&displacement, &force, &external})
+        bonds->initialize(*vector);
+    }
+
+    /// Largest component of internal minus external force under a displacement.
+    template <typename Displacement>
+    double residual(const Displacement &function)
+    {
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
+      compute_nodal_forces(body.nodes, *gradient, loads, boundaries, 1., external);
+      bonds->internal_force(force, displacement);
+      double size = 0, worst = 0;
+      for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
+        worst = std::max(worst, std::abs(force.local_element(k) - external.local_element(k)));
+      bonds->vmult(force, displacement);
+      for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
+        size = std::max(size, std::abs(force.local_element(k)));
+      // The reactions are those of internal_force().
+      bonds->internal_force(force, displacement);
+      return dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD) /
+             dealii::Utilities::MPI::max(size, MPI_COMM_WORLD);
+    }
+
+    test::Body<dim>                                         body;
+    Loads<dim>                                              loads;
+    std::vector<std::vector<dealii::types::boundary_id>>    boundaries;
+    std::function<Moduli(const dealii::types::material_id)> moduli;
+    std::shared_ptr<const FaceGradient<dim>>                gradient;
+    std::shared_ptr<FaceValues<dim>>                        values;
+    std::shared_ptr<ConsistentOperator<dim>>                bonds;
+    NodalVector                                             displacement, force, external;
+  };
+
+  /// A linear displacement and, as formulas, the conditions that belong to it.
+  template <int dim>
+  struct Patch
+  {
+    explicit Patch(const ElasticConstants &constants)
+    {
+      for (int r = 0; r < dim; ++r)
+        for (int c = 0; c < dim; ++c)
+          gradient[r][c] = 1e-3 * (1. + 2. * r - 0.7 * c + (r == c ? 0.3 : 0.) - 1.9 * r * c);
+      stress =
+        Consistent<dim>::stress(symmetrize(gradient), {constants.bulk_modulus(), constants.shear_modulus()});
+    }
+
+    dealii::Tensor<1, dim> operator()(const dealii::Point<dim> &x) const { return gradient * x; }
+
+    /// The boundary numbered @p id is pulled by the traction of the stress.
+    BoundaryConditionText pulled(const unsigned int id) const
+    {
+      BoundaryConditionText result;
+      result.name = result.boundary = std::to_string(id);
+      for (int d = 0; d < dim; ++d)
+        result.traction[d] = number((id % 2 == 0 ? -1. : 1.) * stress[d][id / 2]);
+      return result;
+    }
+
+    /// The component of the displacement as a formula.
+    std::string formula(const unsigned int component) const
+    {
+      std::string text;
+      for (int d = 0; d < dim; ++d)
+        text += (d == 0 ? "" : " + ") + number(gradient[component][d]) + "*" + axes[d];
+      return text;
+    }
+
+    static std::string number(const double value)
+    {
+      std::ostringstream text;
+      text << std::scientific << std::setprecision(17) << "(" << value << ")";
+      return text.str();
+    }
+
+    dealii::Tensor<2, dim>          gradient;
+    dealii::SymmetricTensor<2, dim> stress;
+  };
+
+  template <int dim>
+  ElasticConstants constants()
+  {
+    return {70e9, 0.3, dim == 2 ? PlaneAssumption::plane_stress : PlaneAssumption::solid};
+  }
+
+  template <int dim>
+  void expect_patch_under_tractions()
+  {
+    for (const auto &mesh : test::make_boxes<dim>())
+      {
+        const Patch<dim> patch(constants<dim>());
+        LoadParameters   text;
+        for (unsigned int id = 0; id < 2 * dim; ++id)
+          text.conditions.push_back(patch.pulled(id));
+        LoadedBody<dim> loaded(*mesh, text, {constants<dim>()});
+        EXPECT_LE(loaded.residual(patch), 1e-11);
+      }
+  }
+
+  template <int dim>
+  void expect_patch_under_mixed_conditions()
+  {
+    for (const auto &mesh : test::make_boxes<dim>())
+      {
+        // The left face is held altogether, the right one along x only, the rest is pulled.
+        const Patch<dim> patch(constants<dim>());
+        LoadParameters   text;
+        for (unsigned int id = 0; id < 2 * dim; ++id)
+          text.conditions.push_back(patch.pulled(id));
+        for (int d = 0; d < dim; ++d)
+          {
+            text.conditions[0].traction[d].clear();
+            text.conditions[0].displacement[d] = patch.formula(d);
+          }
+        text.conditions[1].traction[0].clear();
+        text.conditions[1].displacement[0] = patch.formula(0);
+        LoadedBody<dim> loaded(*mesh, text, {constants<dim>()});
+        EXPECT_LE(loaded.residual(patch), 1e-11);
+
+        // Reactions: minus the resultant of all the tractions, and sigma A each.
+        const auto forces = loaded.bonds->support_forces();
+        const auto sums   = loaded.values->sum_by_condition(forces, MPI_COMM_WORLD);
+        double     area   = 0;
+        for (const auto &point : loaded.gradient->boundary_points())
+          if (point.boundary == 0)
+            area += point.area.norm();
+        area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
+        for (int d = 0; d < dim; ++d)
+          EXPECT_NEAR(sums[0][d], -area * patch.stress[d][0], 1e-11 * area * patch.stress.norm());
+        EXPECT_NEAR(sums[1][0], area * patch.stress[0][0], 1e-11 * area * patch.stress.norm());
+        EXPECT_EQ(sums[1][1], 0.);
+      }
+  }
+
+  /// Two materials meet at a plane and are pulled across it: each has its own uniform strain.
+  template <int dim>
+  void expect_patch_of_two_materials()
+  {
+    dealii::Point<dim>        size;
+    std::vector<unsigned int> cells(dim, 6);
+    for (int d = 0; d < dim; ++d)
+      size[d] = 1.;
+    const auto mesh = test::make_box<dim>(cells, size, 0.);
+    for (const auto &cell : mesh->triangulation.active_cell_iterators())
+      if (!cell->is_artificial())
+        cell->set_material_id(cell->center()[0] > 0.5);
+    mesh->material_ids = {0, 1};
+    // Held laterally: uniaxial strain.
+    std::vector<ElasticConstants> materials = {constants<dim>(), constants<dim>()};
+    materials[1].young_modulus *= 100.;
+    const double pull = 1e7;
+    const auto   wave = [&](const unsigned int m) {
+      return materials[m].bulk_modulus() + 2. * materials[m].shear_modulus() * (dim - 1.) / dim;
+    };
+    LoadParameters text;
+    text.conditions.resize(2 * dim);
+    for (unsigned int id = 0; id < 2 * dim; ++id)
+      {
+        text.conditions[id].name = text.conditions[id].boundary = std::to_string(id);
+        if (id != 1)
+          text.conditions[id].displacement[id / 2] = "0";
+        else
+          text.conditions[id].traction[0] = Patch<dim>::number(pull);
+      }
+    LoadedBody<dim> loaded(*mesh, text, materials);
+    EXPECT_LE(loaded.residual([&](const dealii::Point<dim> &x) {
+      dealii::Tensor<1, dim> u;
+      u[0] = pull / wave(0) * std::min(x[0], 0.5) + pull / wave(1) * std::max(x[0] - 0.5, 0.);
+      return u;
+    }),
+              1e-11);
+  }
+
+  /// A body one cell thick has no gradient across, and says so.
+  template <int dim>
+  void expect_thin_bodies_to_be_reported()
+  {
+    dealii::Point<dim>        size;
+    std::vector<unsigned int> cells(dim, 6);
+    for (int d = 0; d < dim; ++d)
+      size[d] = 1.;
+    cells[1]             = 1;
+    const auto      mesh = test::make_box<dim>(cells, size, 0.);
+    LoadedBody<dim> loaded(*mesh, {}, {constants<dim>()});
+    EXPECT_EQ(loaded.bonds->counts.singular, mesh->triangulation.n_global_active_cells());
+  }
+} // namespace
+
+TEST(ConsistentOperator, PatchUnderTractions2D)
+{
+  expect_patch_under_tractions<2>();
+}
+TEST(ConsistentOperator, PatchUnderTractions3D)
+{
+  expect_patch_under_tractions<3>();
+}
+TEST(ConsistentOperator, PatchUnderMixedConditions2D)
+{
+  expect_patch_under_mixed_conditions<2>();
+}
+TEST(ConsistentOperator, PatchUnderMixedConditions3D)
+{
+  expect_patch_under_mixed_conditions<3>();
+}
+TEST(ConsistentOperator, PatchOfTwoMaterials2D)
+{
+  expect_patch_of_two_materials<2>();
+}
+TEST(ConsistentOperator, PatchOfTwoMaterials3D)
+{
+  expect_patch_of_two_materials<3>();
+}
+TEST(ConsistentOperator, ReportsThinBodies2D)
+{
+  expect_thin_bodies_to_be_reported<2>();
+}
+TEST(ConsistentOperator, ReportsThinBodies3D)
+{
+  expect_thin_bodies_to_be_reported<3>();
+}
