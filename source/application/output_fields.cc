@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/output_fields.h>
 #include <perideal/base/registry.h>
+#include <perideal/boundary/nodal_strain.h>
+#include <perideal/materials/elastic_state.h>
 
 #include <algorithm>
 
@@ -44,6 +46,42 @@ namespace perideal
       output.add_scalar(name, values);
     }
 
+    /// Strain and stress of the nodes.
+    template <int dim>
+    std::vector<ElasticState> states_of(const SceneState<dim> &scene)
+    {
+      std::vector<ElasticState> result;
+      for (const auto &strain :
+           compute_nodal_strain(*scene.gradient, *scene.face_values, *scene.nodes, scene.displacement))
+        result.push_back(
+          elastic_state<dim>(strain, scene.constants.at(scene.nodes->material[result.size()])));
+      return result;
+    }
+
+    template <int dim>
+    void add_state_tensor(const SceneState<dim>        &scene,
+                          const std::string            &name,
+                          dealii::SymmetricTensor<2, 3> ElasticState::*tensor,
+                          FieldOutput<dim>                            &output)
+    {
+      std::vector<dealii::SymmetricTensor<2, 3>> values;
+      for (const ElasticState &state : states_of(scene))
+        values.push_back(state.*tensor);
+      output.add_tensor(name, values);
+    }
+
+    template <int dim>
+    void add_state_scalar(const SceneState<dim> &scene,
+                          const std::string     &name,
+                          double (ElasticState::*value)() const,
+                          FieldOutput<dim> &output)
+    {
+      std::vector<double> values;
+      for (const ElasticState &state : states_of(scene))
+        values.push_back((state.*value)());
+      output.add_scalar(name, values);
+    }
+
     /// The list of fields: a new one is one line here.
     template <int dim>
     const Registry<AddField<dim>> &fields()
@@ -62,6 +100,19 @@ namespace perideal
             const auto dilatation = s.bonds->dilatation();
             add_family_scalar(
               s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
+          }},
+         {"strain", [](Scene s, Output o) { add_state_tensor(s, "strain", &ElasticState::strain, o); }},
+         {"stress", [](Scene s, Output o) { add_state_tensor(s, "stress", &ElasticState::stress, o); }},
+         {"von mises",
+          [](Scene s, Output o) { add_state_scalar(s, "von_mises_stress", &ElasticState::von_mises, o); }},
+         {"principal stress",
+          [](Scene s, Output o) {
+            add_state_scalar(s, "largest_principal_stress", &ElasticState::largest_principal, o);
+            add_state_scalar(s, "smallest_principal_stress", &ElasticState::smallest_principal, o);
+          }},
+         {"strain energy density",
+          [](Scene s, Output o) {
+            add_state_scalar(s, "strain_energy_density", &ElasticState::energy_density, o);
           }},
          {"volume", [](Scene s, Output o) { o.add_scalar("volume", s.nodes->volume); }},
          {"horizon", [](Scene s, Output o) { o.add_scalar("horizon", s.nodes->horizon); }},
@@ -91,6 +142,14 @@ namespace perideal
   std::vector<std::string> output_field_names()
   {
     return fields<2>().names();
+  }
+
+  bool needs_gradient(const std::vector<std::string> &names)
+  {
+    return std::any_of(names.begin(), names.end(), [](const std::string &name) {
+      return name == "strain" || name == "stress" || name == "von mises" || name == "principal stress" ||
+             name == "strain energy density";
+    });
   }
 
   template <int dim>

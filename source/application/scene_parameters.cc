@@ -42,6 +42,7 @@ namespace perideal
 
   void SceneParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
+    using namespace dealii::Patterns;
     prm.add_parameter("Dimension", dimension, "Dimensions of space", dealii::Patterns::Integer(2, 3));
     prm.add_parameter("Output directory",
                       output_directory,
@@ -60,6 +61,17 @@ namespace perideal
       "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()) +
         ". family status adds up 1: fallback weights, 2: a moment condition missed, 4: negative "
         "deviatoric weights met");
+    prm.add_parameter(
+      "Boundary stress",
+      boundary_stress,
+      "Boundaries (physical names or ids) whose stresses, recovered at each face, are written to "
+      "stress_NAME.csv, with the extremes in summary.json",
+      List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter("Nominal stress",
+                      nominal_stress,
+                      "Stress [Pa] that the largest principal stress of each of these boundaries is divided "
+                      "by: their concentration; 0: none",
+                      Double(0));
     prm.leave_subsection();
   }
 

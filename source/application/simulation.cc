@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/boundary_stress.h>
 #include <perideal/application/comparison.h>
 #include <perideal/application/output_fields.h>
 #include <perideal/application/report.h>
@@ -93,6 +94,8 @@ namespace perideal
     scene.condition_boundaries = resolve_boundaries(*scene.mesh, scene.loads);
     for (const std::string &name : parameters.comparison.profiles)
       scene.mesh->boundary_id(name, "Comparison/Profiles");
+    for (const std::string &name : parameters.boundary_stress)
+      scene.mesh->boundary_id(name, "Output/Boundary stress");
     for (const auto &group : parameters.material.groups)
       scene.mesh->material_id(group.first, "Material/" + group.first);
     for (const auto id : scene.mesh->material_ids)
@@ -128,6 +131,22 @@ namespace perideal
   }
 
   template <int dim>
+  void Simulation<dim>::make_gradient()
+  {
+    if (!parameters.model.is_consistent() && !needs_gradient(parameters.field_names()))
+      return;
+    const Timings::Scope part(timings, "setup: face gradient");
+    scene.gradient = std::make_shared<const FaceGradient<dim>>(
+      *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
+        return scene.constants.at(id).shear_modulus();
+      });
+    scene.face_values =
+      by_nodes() ?
+        std::make_shared<FaceValues<dim>>() :
+        std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads, scene.condition_boundaries);
+  }
+
+  template <int dim>
   void Simulation<dim>::weigh_bonds()
   {
     const Timings::Scope scope(timings, "setup");
@@ -135,19 +154,9 @@ namespace perideal
       const ElasticConstants &constants = scene.constants.at(id);
       return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
     };
+    make_gradient();
     if (parameters.model.is_consistent())
       {
-        {
-          const Timings::Scope part(timings, "setup: face gradient");
-          scene.gradient = std::make_shared<const FaceGradient<dim>>(
-            *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
-              return moduli(id).shear_modulus;
-            });
-          scene.face_values =
-            parameters.loads.displacement_treatment == "face value" ?
-              std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads, scene.condition_boundaries) :
-              std::make_shared<FaceValues<dim>>();
-        }
         const Timings::Scope part(timings, "setup: weights");
         scene.consistent = std::make_shared<ConsistentOperator<dim>>(
           scene.families,
@@ -242,9 +251,10 @@ namespace perideal
   void Simulation<dim>::apply_loads(const double time)
   {
     scene.mirror->set_time(scene.loads, time);
+    if (scene.face_values)
+      scene.face_values->set_time(scene.loads, time);
     if (scene.consistent)
       {
-        scene.face_values->set_time(scene.loads, time);
         compute_nodal_forces(
           *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
       }
@@ -380,6 +390,8 @@ namespace perideal
     const Timings::Scope scope(timings, "output");
     add_output_fields(scene, parameters.field_names(), *field_output);
     field_output->write(number, time);
+    if (is_last && !parameters.boundary_stress.empty())
+      summary["boundary_stress"] = write_boundary_stress(scene, parameters, time);
   }
 
   template <int dim>
@@ -424,7 +436,8 @@ namespace perideal
 
     if (status == "done")
       screen << "solved      " << summary["solver"]["iterations"].back() << " iterations, strain energy "
-             << short_number(summary["energy"]["strain"].template get<double>()) << " J\n";
+             << short_number(summary["energy"]["strain"].template get<double>()) << " J\n"
+             << describe_boundary_stress(summary["boundary_stress"]);
     if (result.contains("errors") && !result["errors"].empty())
       screen << '\n' << error_table(result["errors"]);
     screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;

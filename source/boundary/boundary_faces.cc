@@ -15,41 +15,64 @@
 
 namespace perideal
 {
+  namespace
+  {
+    /// The boundary faces of the cells that @p selects; @p node_of says the cell's node.
+    template <int dim, typename Selects, typename NodeOf>
+    std::vector<BoundaryFace<dim>>
+    find_faces(const Mesh<dim> &mesh, const Selects &selects, const NodeOf &node_of)
+    {
+      std::vector<BoundaryFace<dim>> result;
+      const dealii::MappingQ1<dim>   mapping;
+      const dealii::FE_Nothing<dim>  no_element;
+      dealii::FEFaceValues<dim>      values(mapping,
+                                       no_element,
+                                       dealii::QGauss<dim - 1>(2),
+                                       dealii::update_JxW_values | dealii::update_quadrature_points |
+                                         dealii::update_normal_vectors);
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (selects(cell) && cell->at_boundary())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary())
+              {
+                values.reinit(cell, f);
+                BoundaryFace<dim> face;
+                face.node     = node_of(cell);
+                face.boundary = cell->face(f)->boundary_id();
+                face.area     = 0;
+                for (const unsigned int q : values.quadrature_point_indices())
+                  {
+                    face.area += values.JxW(q);
+                    face.centre += values.JxW(q) * values.quadrature_point(q);
+                    face.normal += values.JxW(q) * values.normal_vector(q);
+                  }
+                face.centre /= face.area;
+                face.normal /= face.normal.norm();
+                face.area *= mesh.thickness;
+                for (const unsigned int v : cell->face(f)->vertex_indices())
+                  face.vertices.push_back(cell->face(f)->vertex(v));
+                result.push_back(std::move(face));
+              }
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   std::vector<BoundaryFace<dim>> find_boundary_faces(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
   {
-    std::vector<BoundaryFace<dim>> result;
-    const dealii::MappingQ1<dim>   mapping;
-    const dealii::FE_Nothing<dim>  no_element;
-    dealii::FEFaceValues<dim>      values(mapping,
-                                     no_element,
-                                     dealii::QGauss<dim - 1>(2),
-                                     dealii::update_JxW_values | dealii::update_quadrature_points |
-                                       dealii::update_normal_vectors);
-    for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            {
-              values.reinit(cell, f);
-              BoundaryFace<dim> face;
-              face.node     = nodes.node_of_cell[cell->active_cell_index()];
-              face.boundary = cell->face(f)->boundary_id();
-              face.area     = 0;
-              for (const unsigned int q : values.quadrature_point_indices())
-                {
-                  face.area += values.JxW(q);
-                  face.centre += values.JxW(q) * values.quadrature_point(q);
-                  face.normal += values.JxW(q) * values.normal_vector(q);
-                }
-              face.centre /= face.area;
-              face.normal /= face.normal.norm();
-              face.area *= mesh.thickness;
-              for (const unsigned int v : cell->face(f)->vertex_indices())
-                face.vertices.push_back(cell->face(f)->vertex(v));
-              result.push_back(std::move(face));
-            }
-    return result;
+    return find_faces<dim>(
+      mesh,
+      [](const auto &cell) { return cell->is_locally_owned(); },
+      [&](const auto &cell) { return nodes.node_of_cell[cell->active_cell_index()]; });
+  }
+
+  template <int dim>
+  std::vector<BoundaryFace<dim>> find_boundary_faces(const Mesh<dim> &mesh, const CellGraph<dim> &graph)
+  {
+    return find_faces<dim>(
+      mesh,
+      [](const auto &cell) { return !cell->is_artificial(); },
+      [&](const auto &cell) { return graph.node_of(cell); });
   }
 
   template <int dim>
@@ -131,6 +154,8 @@ namespace perideal
   template struct BoundaryFace<3>;
   template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const Nodes<2> &);
   template std::vector<BoundaryFace<3>> find_boundary_faces(const Mesh<3> &, const Nodes<3> &);
+  template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const CellGraph<2> &);
+  template std::vector<BoundaryFace<3>> find_boundary_faces(const Mesh<3> &, const CellGraph<3> &);
   template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<2> &,
                                                                                    const Loads<2> &);
   template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<3> &,

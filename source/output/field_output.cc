@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/files.h>
+#include <perideal/output/tensor_components.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -60,6 +61,19 @@ namespace perideal
           cell_values[cell->active_cell_index()] = values[node];
         }
     scalars.emplace_back(name, std::move(cell_values));
+  }
+
+  template <int dim>
+  void FieldOutput<dim>::add_tensor(const std::string                                &name,
+                                    const std::vector<dealii::SymmetricTensor<2, 3>> &values)
+  {
+    std::vector<double> component(values.size());
+    for (const auto &[suffix, a, b] : tensor_components<dim>())
+      {
+        for (std::size_t i = 0; i < values.size(); ++i)
+          component[i] = values[i][a][b];
+        add_scalar(name + "_" + suffix, component);
+      }
   }
 
   template <int dim>

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace perideal
 {
@@ -88,5 +89,16 @@ namespace perideal
         separator = ",";
       }
     out << '\n';
+  }
+
+  void write_csv(const std::string                      &path,
+                 const std::vector<std::string>         &header,
+                 const std::vector<std::vector<double>> &rows)
+  {
+    std::ostringstream text;
+    write_csv_header(text, header);
+    for (const auto &row : rows)
+      write_csv_row(text, row);
+    replace_file(path, text.str());
   }
 } // namespace perideal

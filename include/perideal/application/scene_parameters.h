@@ -39,9 +39,13 @@ namespace perideal
   /// Everything a `.prm` file can say.
   struct SceneParameters
   {
-    int                  dimension        = 2;
-    std::string          output_directory = "output";
-    std::string          fields           = "displacement";
+    int         dimension        = 2;
+    std::string output_directory = "output";
+    std::string fields           = "displacement";
+    /// Boundaries whose stresses are written.
+    std::vector<std::string> boundary_stress;
+    /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
+    double               nominal_stress = 0.;
     MeshParameters       mesh;
     NodeParameters       nodes;
     ModelParameters      model;

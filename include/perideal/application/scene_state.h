@@ -44,7 +44,7 @@ namespace perideal
     std::unique_ptr<Nodes<dim>>    nodes;
     std::vector<BoundaryFace<dim>> faces;
     HeldNodes<dim>                 held;
-    /// Where the scene needs gradients: the consistent form does.
+    /// Where the scene needs gradients: the consistent form, strains and stresses do.
     std::shared_ptr<const FaceGradient<dim>> gradient;
     std::shared_ptr<FaceValues<dim>>         face_values;
     std::shared_ptr<MirrorLayer<dim>>        mirror;

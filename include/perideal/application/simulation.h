@@ -51,6 +51,7 @@ namespace perideal
     void make_nodes_and_families();
     void find_free_motions();
     void prepare_comparisons();
+    void make_gradient();
     void weigh_bonds();
     void set_up_solver();
     void apply_loads(const double time);

@@ -5,12 +5,13 @@
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/parameters/load_parameters.h>
+#include <perideal/quadrature/cell_graph.h>
 
 #include <vector>
 
 namespace perideal
 {
-  /// A boundary face of a locally owned cell.
+  /// A boundary face of a cell.
   template <int dim>
   struct BoundaryFace
   {
@@ -29,6 +30,10 @@ namespace perideal
   /// All boundary faces of this rank.
   template <int dim>
   std::vector<BoundaryFace<dim>> find_boundary_faces(const Mesh<dim> &mesh, const Nodes<dim> &nodes);
+
+  /// All boundary faces of the owned and ghost cells of the graph, with its local nodes.
+  template <int dim>
+  std::vector<BoundaryFace<dim>> find_boundary_faces(const Mesh<dim> &mesh, const CellGraph<dim> &graph);
 
   /// The boundaries that each condition names, as ids.
   /// @throws InputError when the mesh lacks one, or when two conditions

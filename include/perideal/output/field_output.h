@@ -5,6 +5,7 @@
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/nodes.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/la_parallel_vector.h>
@@ -50,6 +51,11 @@ namespace perideal
 
     /// As add_vector(), for a scalar field.
     void add_scalar(const std::string &name, const std::vector<double> &values);
+
+    /// As add_vector(), for a symmetric tensor in space: scalars name_xx, name_yy,
+    /// name_zz, name_xy and, in 3-D, name_yz, name_zx. (The tensors of .vtu files have no
+    /// zz in 2-D, which plane strain needs.)
+    void add_tensor(const std::string &name, const std::vector<dealii::SymmetricTensor<2, 3>> &values);
 
     /// Writes the fields added since the last write, and forgets them. Collective.
     /// @param step number in the file name @param time for the .pvd [s]

@@ -29,6 +29,11 @@ namespace perideal
 
   /// One line of a CSV file of numbers with the 17 digits that make reading exact.
   void write_csv_row(std::ostream &out, const std::vector<double> &values);
+
+  /// A whole CSV file, as replace_file(). For one rank.
+  void write_csv(const std::string                      &path,
+                 const std::vector<std::string>         &header,
+                 const std::vector<std::vector<double>> &rows);
 } // namespace perideal
 
 #endif

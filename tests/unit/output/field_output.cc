@@ -71,6 +71,34 @@ TYPED_TEST(FieldOutputTest, EveryCellHasTheValueOfItsNode)
   EXPECT_EQ(n_cells, nodes.n_global);
 }
 
+TYPED_TEST(FieldOutputTest, TensorsAreScalarsByComponent)
+{
+  constexpr int dim = TypeParam::value;
+  Mesh<dim>     mesh(MPI_COMM_WORLD);
+  make_block(mesh, 3);
+  const Nodes<dim>              nodes(mesh, NodeParameters());
+  const auto                    directory = scratch_directory("tensors_" + std::to_string(dim));
+  FieldOutput<dim>              output(mesh, nodes, directory, OutputSteps::single);
+  dealii::SymmetricTensor<2, 3> tensor;
+  for (unsigned int k = 0; k < 6; ++k)
+    tensor.access_raw_entry(k) = k + 1.;
+  output.add_tensor("stress", std::vector<dealii::SymmetricTensor<2, 3>>(nodes.size(), tensor));
+  output.write(0, 0.);
+
+  const std::string vtu = read_text(directory + "/solution.vtu");
+  EXPECT_EQ(count(vtu, "Name=\"stress_"), (dim == 2 ? 4 : 6) * count(vtu, "Name=\"connectivity\""));
+  const std::vector<std::pair<std::string, double>> expected = {{"xx", tensor[0][0]},
+                                                                {"yy", tensor[1][1]},
+                                                                {"zz", tensor[2][2]},
+                                                                {"xy", tensor[0][1]},
+                                                                {"yz", tensor[1][2]},
+                                                                {"zx", tensor[2][0]}};
+  for (const auto &[suffix, value] : expected)
+    for (const auto &piece : read_data_arrays<float>(vtu, "Name=\"stress_" + suffix + "\""))
+      for (const float read : piece)
+        EXPECT_EQ(read, static_cast<float>(value));
+}
+
 TEST(FieldOutput, PvdListsWhatIsWritten)
 {
   Mesh<2> mesh(MPI_COMM_WORLD);
