@@ -108,6 +108,14 @@ namespace perideal
         .given(treatment)
         .allowed("automatic | layer | reference | mirror for this model")
         .hint("or set Material/Form = consistent");
+    // The consistent form leaves the choice to the mesh.
+    if (nodes.horizon_shape == "automatic" && !consistent)
+      nodes.horizon_shape = "sphere";
+    if (nodes.horizon_shape == "cell" && !consistent)
+      throw InputError("the weights of this model are those of spheres")
+        .parameter("Nodes/Horizon shape")
+        .given(nodes.horizon_shape)
+        .allowed("automatic | sphere; or set Material/Form = consistent");
     if (treatment == "mirror" && consistent)
       throw InputError("mirrored nodes have no cells, which the consistent form needs")
         .parameter("Boundary conditions/Displacement treatment")

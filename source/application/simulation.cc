@@ -162,7 +162,7 @@ namespace perideal
           scene.families,
           scene.gradient,
           scene.face_values,
-          create_consistent<dim>(parameters.model, scene.mesh->thickness),
+          create_consistent<dim>(parameters.model, parameters.nodes.horizon_factor),
           moduli);
         scene.bonds = scene.consistent;
       }

@@ -8,30 +8,13 @@ namespace perideal
   template <int dim>
   Consistent<dim>::Consistent(const InfluenceFunction &influence,
                               const double             stabilisation,
-                              const double             thickness)
+                              const double             horizon_factor)
     : influence(influence)
-    , stabilisation(stabilisation)
-    , thickness(thickness)
+    // wd = (dim+2)/2 dim/m omega, m = m_1 horizon^(dim+2) the analytic weighted volume
+    // (XOSB 24, 25, 28), horizon^dim = factor^dim V, horizon = |xi|/distance.
+    , factor(stabilisation * dim * (dim + 2) /
+             (influence.template weighted_volume<dim>(1.) * std::pow(horizon_factor, dim)))
   {
-  }
-
-  template <int dim>
-  double Consistent<dim>::bond_share(const double length_square,
-                                     const double bond_horizon,
-                                     const double volume,
-                                     const double other_volume) const
-  {
-    // omega by the bond's horizon from both ends, so that the share is one number a bond.
-    return influence.value(std::sqrt(length_square), bond_horizon, bond_horizon) * volume * other_volume /
-           length_square;
-  }
-
-  template <int dim>
-  double Consistent<dim>::family_share(const double shear_modulus, const double horizon) const
-  {
-    // wd = (dim+2)/2 wh, wh = dim/m omega, m the analytic weighted volume (XOSB 24, 25, 28).
-    const double weighted_volume = influence.template weighted_volume<dim>(horizon) * thickness;
-    return stabilisation * shear_modulus * dim * (dim + 2) / weighted_volume;
   }
 
   template class Consistent<2>;

@@ -92,10 +92,10 @@ namespace perideal
   }
 
   template <int dim>
-  Consistent<dim> create_consistent(const ModelParameters &parameters, const double thickness)
+  Consistent<dim> create_consistent(const ModelParameters &parameters, const double horizon_factor)
   {
     return Consistent<dim>(
-      InfluenceFunction(parameters.influence_function), std::stod(parameters.stabilisation), thickness);
+      InfluenceFunction(parameters.influence_function), std::stod(parameters.stabilisation), horizon_factor);
   }
 
   template <int dim>

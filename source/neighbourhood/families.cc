@@ -23,20 +23,20 @@ namespace perideal
     };
 
     template <int dim>
-    LeafPoints<dim> load_leaf(const PointTree<dim>                  &tree,
-                              const LocalIndex                       leaf,
-                              const std::vector<dealii::Point<dim>> &position,
-                              const std::vector<double>             &horizon,
-                              const LocalIndex                       offset)
+    LeafPoints<dim> load_leaf(const PointTree<dim>               &tree,
+                              const LocalIndex                    leaf,
+                              const std::vector<HorizonBox<dim>> &boxes,
+                              const LocalIndex                    offset)
     {
       LeafPoints<dim>  points;
       const LocalIndex begin = tree.leaf_begin(leaf);
       points.number          = tree.leaf_end(leaf) - begin;
       for (LocalIndex k = 0; k < points.number; ++k)
         {
+          const HorizonBox<dim> &box = boxes[offset + begin + k];
           for (int d = 0; d < dim; ++d)
-            points.coordinate[d][k] = position[offset + begin + k][d];
-          points.reach_square[k] = horizon[offset + begin + k] * horizon[offset + begin + k];
+            points.coordinate[d][k] = box.lower[d];
+          points.reach_square[k] = box.horizon * box.horizon;
         }
       return points;
     }
@@ -73,6 +73,7 @@ namespace perideal
     , volume(nodes.volume)
     , horizon(nodes.horizon)
     , material(nodes.material)
+    , shape(nodes.shape)
     , communicator(nodes.communicator)
     , n_owned_nodes(nodes.size())
     , first_global(nodes.first_global)
@@ -85,21 +86,24 @@ namespace perideal
   template <int dim>
   void Families<dim>::search(const NodeCloud<dim> &nodes)
   {
-    const PointTree<dim>            tree(nodes.position, nodes.horizon);
-    std::vector<dealii::Point<dim>> ghost_position;
-    std::vector<double>             ghost_horizon;
+    std::vector<HorizonBox<dim>> boxes(nodes.size()), ghost_boxes;
+    for (LocalIndex i = 0; i < nodes.size(); ++i)
+      boxes[i] = HorizonBox<dim>::of(position[i], nodes.reach(i));
+    const PointTree<dim> tree(boxes);
     for (const HaloNode<dim> &ghost : exchange_halo(nodes, tree))
       {
         ghost_number.push_back(ghost.number);
         ghost_owner.push_back(ghost.owner);
-        ghost_position.push_back(ghost.position);
-        ghost_horizon.push_back(ghost.horizon);
+        ghost_boxes.push_back(HorizonBox<dim>::of(ghost.position, ghost.reach));
+        boxes.push_back(ghost_boxes.back());
         position.push_back(ghost.position);
         volume.push_back(ghost.volume);
         horizon.push_back(ghost.horizon);
         material.push_back(ghost.material);
+        if (!shape.empty())
+          shape.push_back(ghost.shape);
       }
-    const PointTree<dim> ghost_tree(ghost_position, ghost_horizon);
+    const PointTree<dim> ghost_tree(ghost_boxes);
 
     row.assign(1, 0);
     row.reserve(n_owned_nodes + 1);
@@ -114,12 +118,12 @@ namespace perideal
           others.find_leaves(tree.leaf_box(leaf), leaves);
           for (const LocalIndex other : leaves)
             {
-              const auto points = load_leaf(others, other, position, horizon, offset);
+              const auto points = load_leaf(others, other, boxes, offset);
               for (LocalIndex i = begin; i < end; ++i)
                 append_neighbours(points,
                                   offset + others.leaf_begin(other),
                                   position[i],
-                                  horizon[i] * horizon[i],
+                                  boxes[i].horizon * boxes[i].horizon,
                                   i,
                                   family[i - begin]);
             }
@@ -128,11 +132,24 @@ namespace perideal
         collect(ghost_tree, n_owned_nodes);
         for (LocalIndex i = begin; i < end; ++i)
           {
+            keep_within_shapes(i, family[i - begin]);
             neighbour.insert(neighbour.end(), family[i - begin].begin(), family[i - begin].end());
             row.push_back(neighbour.size());
           }
       }
     neighbour.shrink_to_fit();
+  }
+
+  template <int dim>
+  void Families<dim>::keep_within_shapes(const LocalIndex i, std::vector<LocalIndex> &members) const
+  {
+    if (shape.empty())
+      return;
+    const auto is_outside = [&](const LocalIndex j) {
+      const auto bond = position[j] - position[i];
+      return (shape[i] * bond).norm_square() > 1. && (shape[j] * bond).norm_square() > 1.;
+    };
+    members.erase(std::remove_if(members.begin(), members.end(), is_outside), members.end());
   }
 
   template <int dim>
@@ -150,12 +167,14 @@ namespace perideal
     for (LocalIndex g = 0; g < n_candidates; ++g)
       if (used[g])
         {
-          new_number[g]                      = n_owned_nodes + n_used;
-          ghost_number[n_used]               = ghost_number[g];
-          ghost_owner[n_used]                = ghost_owner[g];
-          position[n_owned_nodes + n_used]   = position[n_owned_nodes + g];
-          volume[n_owned_nodes + n_used]     = volume[n_owned_nodes + g];
-          horizon[n_owned_nodes + n_used]    = horizon[n_owned_nodes + g];
+          new_number[g]                    = n_owned_nodes + n_used;
+          ghost_number[n_used]             = ghost_number[g];
+          ghost_owner[n_used]              = ghost_owner[g];
+          position[n_owned_nodes + n_used] = position[n_owned_nodes + g];
+          volume[n_owned_nodes + n_used]   = volume[n_owned_nodes + g];
+          horizon[n_owned_nodes + n_used]  = horizon[n_owned_nodes + g];
+          if (!shape.empty())
+            shape[n_owned_nodes + n_used] = shape[n_owned_nodes + g];
           material[n_owned_nodes + n_used++] = material[n_owned_nodes + g];
         }
     ghost_number.resize(n_used);
@@ -163,6 +182,8 @@ namespace perideal
     position.resize(n_owned_nodes + n_used);
     volume.resize(n_owned_nodes + n_used);
     horizon.resize(n_owned_nodes + n_used);
+    if (!shape.empty())
+      shape.resize(n_owned_nodes + n_used);
     material.resize(n_owned_nodes + n_used);
     for (LocalIndex &j : neighbour)
       if (j >= n_owned_nodes)
@@ -204,7 +225,8 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(position) + memory_consumption(volume) + memory_consumption(horizon) +
-           memory_consumption(material) + memory_consumption(row) + memory_consumption(neighbour);
+           memory_consumption(material) + shape.size() * sizeof(shape[0]) + memory_consumption(row) +
+           memory_consumption(neighbour);
   }
 
   template class Families<2>;

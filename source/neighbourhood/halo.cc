@@ -10,7 +10,7 @@ namespace perideal
 {
   namespace
   {
-    /// Boxes travel as plain numbers: lower, upper, horizon.
+    /// Boxes travel as plain numbers: lower, upper, reach, horizon.
     template <int dim>
     std::vector<std::vector<HorizonBox<dim>>> gather_boxes(const std::vector<HorizonBox<dim>> &mine,
                                                            MPI_Comm                            communicator)
@@ -19,13 +19,13 @@ namespace perideal
       for (const auto &box : mine)
         {
           for (int d = 0; d < dim; ++d)
-            flat.insert(flat.end(), {box.lower[d], box.upper[d]});
+            flat.insert(flat.end(), {box.lower[d], box.upper[d], box.reach[d]});
           flat.push_back(box.horizon);
         }
       std::vector<std::vector<HorizonBox<dim>>> result;
       for (const auto &numbers : dealii::Utilities::MPI::all_gather(communicator, flat))
         {
-          result.emplace_back(numbers.size() / (2 * dim + 1));
+          result.emplace_back(numbers.size() / (3 * dim + 1));
           const double *number = numbers.data();
           for (auto &box : result.back())
             {
@@ -33,6 +33,7 @@ namespace perideal
                 {
                   box.lower[d] = *number++;
                   box.upper[d] = *number++;
+                  box.reach[d] = *number++;
                 }
               box.horizon = *number++;
             }
@@ -66,7 +67,7 @@ namespace perideal
             tree.find_leaves(box, leaves);
             for (const LocalIndex leaf : leaves)
               for (LocalIndex i = tree.leaf_begin(leaf); i < tree.leaf_end(leaf); ++i)
-                if (box.may_interact({nodes.position[i], nodes.position[i], nodes.horizon[i]}))
+                if (box.may_interact(HorizonBox<dim>::of(nodes.position[i], nodes.reach(i))))
                   chosen[i] = true;
           }
         Bytes message;
@@ -78,7 +79,9 @@ namespace perideal
                                            nodes.position[i],
                                            nodes.volume[i],
                                            nodes.horizon[i],
-                                           nodes.material[i]};
+                                           nodes.material[i],
+                                          nodes.shape.empty() ? dealii::Tensor<2, dim>() : nodes.shape[i],
+                                           nodes.reach(i)};
               const auto          begin = reinterpret_cast<const char *>(&node);
               message.insert(message.end(), begin, begin + sizeof(node));
             }

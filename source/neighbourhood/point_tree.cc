@@ -7,15 +7,17 @@
 namespace perideal
 {
   template <int dim>
-  double HorizonBox<dim>::distance_square(const HorizonBox &other) const
+  HorizonBox<dim> HorizonBox<dim>::of(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &reach)
   {
-    double sum = 0;
+    // An ellipsoid lies within the sphere through the corners of its box; a sphere
+    // in itself.
+    double largest = 0, smallest = reach[0];
     for (int d = 0; d < dim; ++d)
       {
-        const double gap = std::max({0., lower[d] - other.upper[d], other.lower[d] - upper[d]});
-        sum += gap * gap;
+        largest  = std::max(largest, reach[d]);
+        smallest = std::min(smallest, reach[d]);
       }
-    return sum;
+    return {point, point, reach, smallest == largest ? largest : reach.norm()};
   }
 
   template <int dim>
@@ -23,8 +25,17 @@ namespace perideal
   {
     // A little slack, so that round-off in the box distance never loses a bond
     // whose length equals the horizon; the pair test decides.
-    const double reach = std::max(horizon, other.horizon) * (1 + 1e-12);
-    return distance_square(other) <= reach * reach;
+    constexpr double slack = 1 + 1e-12;
+    double           sum   = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double gap = std::max({0., lower[d] - other.upper[d], other.lower[d] - upper[d]});
+        if (gap > slack * std::max(reach[d], other.reach[d]))
+          return false;
+        sum += gap * gap;
+      }
+    const double radius = slack * std::max(horizon, other.horizon);
+    return sum <= radius * radius;
   }
 
   template <int dim>
@@ -34,14 +45,14 @@ namespace perideal
       {
         lower[d] = std::min(lower[d], other.lower[d]);
         upper[d] = std::max(upper[d], other.upper[d]);
+        reach[d] = std::max(reach[d], other.reach[d]);
       }
     horizon = std::max(horizon, other.horizon);
   }
 
   template <int dim>
-  PointTree<dim>::PointTree(const std::vector<dealii::Point<dim>> &position,
-                            const std::vector<double>             &horizon)
-    : n_points(position.size())
+  PointTree<dim>::PointTree(const std::vector<HorizonBox<dim>> &boxes)
+    : n_points(boxes.size())
   {
     if (n_points == 0)
       return;
@@ -49,9 +60,9 @@ namespace perideal
     for (LocalIndex leaf = 0; leaf < n_leaves(); ++leaf)
       {
         const LocalIndex first = leaf_begin(leaf);
-        levels.front()[leaf]   = {position[first], position[first], horizon[first]};
+        levels.front()[leaf]   = boxes[first];
         for (LocalIndex i = first + 1; i < leaf_end(leaf); ++i)
-          levels.front()[leaf].include({position[i], position[i], horizon[i]});
+          levels.front()[leaf].include(boxes[i]);
       }
     while (levels.back().size() > 1)
       {

@@ -37,10 +37,38 @@ namespace perideal
     template <typename T>
     void reorder(std::vector<T> &values, const std::vector<LocalIndex> &order)
     {
+      if (values.empty())
+        return;
       std::vector<T> result(values.size());
       for (std::size_t i = 0; i < order.size(); ++i)
         result[i] = values[order[i]];
       values.swap(result);
+    }
+
+    /// Jacobian in the middle of a cell, scaled to the cell's measure.
+    template <int dim, typename Cell>
+    dealii::Tensor<2, dim> mean_jacobian(const Cell &cell, const double measure)
+    {
+      dealii::Tensor<2, dim> jacobian;
+      for (const unsigned int v : cell->vertex_indices())
+        for (int d = 0; d < dim; ++d)
+          for (int e = 0; e < dim; ++e)
+            jacobian[d][e] += ((v >> e) & 1u ? 1. : -1.) * cell->vertex(v)[d] / (cell->n_vertices() / 2);
+      return std::pow(measure / determinant(jacobian), 1. / dim) * jacobian;
+    }
+
+    /// Longest over shortest edge of the parallelepiped that a Jacobian spans.
+    template <int dim>
+    double aspect_ratio(const dealii::Tensor<2, dim> &jacobian)
+    {
+      const auto edges    = transpose(jacobian);
+      double     shortest = edges[0].norm(), longest = shortest;
+      for (int d = 1; d < dim; ++d)
+        {
+          shortest = std::min(shortest, edges[d].norm());
+          longest  = std::max(longest, edges[d].norm());
+        }
+      return longest / shortest;
     }
   } // namespace
 
@@ -52,6 +80,12 @@ namespace perideal
                       "Horizon of a node over its spacing, the edge of the square or cube of its volume; "
                       "1.5 to 6 make sense [-]",
                       dealii::Patterns::Double());
+    prm.add_parameter("Horizon shape",
+                      horizon_shape,
+                      "sphere; or cell: an ellipsoid with as many cells along each of its axes, for cells "
+                      "that are long in one direction (consistent form only); automatic: cell for the "
+                      "consistent form where the mean aspect ratio of the cells is above 3, else sphere",
+                      dealii::Patterns::Selection("automatic|sphere|cell"));
     prm.leave_subsection();
   }
 
@@ -62,6 +96,23 @@ namespace perideal
       throw InputError("this horizon makes no families")
         .parameter("Nodes/Horizon factor")
         .allowed("1.01 to 20; 3.01 is usual");
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> NodeCloud<dim>::reach(const LocalIndex i) const
+  {
+    dealii::Tensor<1, dim> result;
+    if (shape.empty())
+      for (int d = 0; d < dim; ++d)
+        result[d] = horizon[i];
+    else
+      {
+        // The box around the image of the unit sphere under the inverse map.
+        const auto semi_axes = invert(shape[i]);
+        for (int d = 0; d < dim; ++d)
+          result[d] = semi_axes[d].norm();
+      }
+    return result;
   }
 
   template <int dim>
@@ -114,7 +165,9 @@ namespace perideal
           cells.push_back(cell->active_cell_index());
         }
 
+    choose_shape(mesh, parameters);
     const auto order = order_along_curve(position);
+    reorder(this->shape, order);
     reorder(position, order);
     reorder(volume, order);
     reorder(material, order);
@@ -128,6 +181,28 @@ namespace perideal
       }
 
     this->number();
+  }
+
+  template <int dim>
+  void Nodes<dim>::choose_shape(const Mesh<dim> &mesh, const NodeParameters &parameters)
+  {
+    double aspect_ratios = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto jacobian = mean_jacobian<dim>(cell, this->volume[this->shape.size()]);
+          aspect_ratios += aspect_ratio(jacobian);
+          max_aspect_ratio = std::max(max_aspect_ratio, aspect_ratio(jacobian));
+          this->shape.push_back(invert(jacobian) / parameters.horizon_factor);
+        }
+    const auto &all   = this->communicator;
+    max_aspect_ratio  = dealii::Utilities::MPI::max(max_aspect_ratio, all);
+    mean_aspect_ratio = dealii::Utilities::MPI::sum(aspect_ratios, all) /
+                        dealii::Utilities::MPI::sum(static_cast<double>(this->shape.size()), all);
+    // On stretched cells spheres reach across many cells one way and none the other.
+    if (parameters.horizon_shape == "sphere" ||
+        (parameters.horizon_shape == "automatic" && mean_aspect_ratio <= 3.))
+      this->shape.clear();
   }
 
   template struct NodeCloud<2>;

@@ -114,27 +114,28 @@ namespace perideal
   void
   ConsistentOperator<dim>::weigh_bonds(const std::function<Moduli(const dealii::types::material_id)> &moduli)
   {
-    bond_share.assign(bonds.n_slots(), 0.);
+    stiffness.near.assign(bonds.n_slots(), 0.);
+    stiffness.far.assign(bonds.n_slots(), 0.);
+    std::vector<double> shear_modulus;
+    for (const auto id : families->material)
+      shear_modulus.push_back(moduli(id).shear_modulus);
     for (LocalIndex i = 0; i < n_owned; ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
           const LocalIndex j = bonds.neighbour[k];
-          if (j != i && families->material[j] == families->material[i])
-            bond_share[k] = model.bond_share(families->position[j].distance_square(families->position[i]),
-                                             std::max(families->horizon[i], families->horizon[j]),
-                                             families->volume[i],
-                                             families->volume[j]);
+          if (j == i || families->material[j] != families->material[i])
+            continue;
+          const auto   bond          = families->position[j] - families->position[i];
+          const double length_square = bond.norm_square();
+          const double near = distance_square(i, bond), far = distance_square(j, bond);
+          const double distance = std::sqrt(std::min(near, far));
+          stiffness.near[k] =
+            model.bond_stiffness(length_square, near, distance, families->volume[j], shear_modulus[i]);
+          stiffness.far[k] =
+            model.bond_stiffness(length_square, far, distance, families->volume[i], shear_modulus[j]);
         }
     for (LocalIndex &j : bonds.neighbour)
       j = node_of_member[j];
-
-    family_share.assign(n_local, 0.);
-    for (LocalIndex m = 0; m < families->n_local(); ++m)
-      family_share[node_of_member[m]] =
-        model.family_share(moduli(families->material[m]).shear_modulus, families->horizon[m]);
-    // It rides behind the coordinates, where the bond vectors have a zero.
-    for (LocalIndex i = 0; i < n_local; ++i)
-      displacements[i].value[3] = family_share[i];
     for (LocalIndex i = 0; i < n_owned; ++i)
       material.push_back(moduli(families->material[i]));
   }
@@ -178,10 +179,10 @@ namespace perideal
   std::size_t ConsistentOperator<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return bonds.memory_consumption() + memory_consumption(bond_share) + memory_consumption(family_share) +
-           memory_consumption(node_of_member) + memory_consumption(global_number) +
-           material.size() * sizeof(Moduli) + n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) +
-           gradient->memory_consumption();
+    return bonds.memory_consumption() + memory_consumption(stiffness.near) +
+           memory_consumption(stiffness.far) + memory_consumption(node_of_member) +
+           memory_consumption(global_number) + material.size() * sizeof(Moduli) +
+           n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) + gradient->memory_consumption();
   }
 
   template class ConsistentOperator<2>;

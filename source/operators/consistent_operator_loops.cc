@@ -139,12 +139,13 @@ namespace perideal
                     far[l] -= lanes(strain[j[l]][p]) * square[l][p];
                   }
               }
-            Lanes near_pull, far_pull, share;
+            Lanes near_pull, far_pull, near_stiffness, far_stiffness;
             sum_of_each(near_pull, near[0], near[1], near[2], near[3]);
             sum_of_each(far_pull, far[0], far[1], far[2], far[3]);
-            load(share, bond_share.data() + k);
-            near_pull *= share * ui[3];
-            far_pull *= share * Lanes{u[j[0]].value[3], u[j[1]].value[3], u[j[2]].value[3], u[j[3]].value[3]};
+            load(near_stiffness, stiffness.near.data() + k);
+            load(far_stiffness, stiffness.far.data() + k);
+            near_pull *= near_stiffness;
+            far_pull *= far_stiffness;
             const Lanes pull = near_pull + far_pull;
             for (unsigned int l = 0; l < n_lanes; ++l)
               {

@@ -68,14 +68,15 @@ namespace perideal
     for (const LocalIndex *m = families->begin(i); m != families->end(i); ++m)
       if (families->material[*m] == families->material[i])
         {
-          const auto   bond   = families->position[*m] - families->position[i];
-          const double square = bond.norm_square();
+          const auto   bond = families->position[*m] - families->position[i];
+          const double near = distance_square(i, bond), far = distance_square(*m, bond);
           visit(node_of_member[*m],
                 bond,
-                family_share[i] * model.bond_share(square,
-                                                   std::max(families->horizon[i], families->horizon[*m]),
-                                                   families->volume[i],
-                                                   families->volume[*m]));
+                model.bond_stiffness(bond.norm_square(),
+                                     near,
+                                     std::sqrt(std::min(near, far)),
+                                     families->volume[*m],
+                                     material[i].shear_modulus));
         }
   }
 

@@ -104,8 +104,10 @@ namespace perideal::test
   template <int dim>
   struct Body
   {
-    explicit Body(const Mesh<dim> &mesh, const double horizon_factor = 3.01)
-      : nodes(mesh, NodeParameters{horizon_factor})
+    explicit Body(const Mesh<dim>   &mesh,
+                  const double       horizon_factor = 3.01,
+                  const std::string &horizon_shape  = "sphere")
+      : nodes(mesh, NodeParameters{horizon_factor, horizon_shape})
       , families(std::make_shared<const Families<dim>>(nodes))
     {
     }

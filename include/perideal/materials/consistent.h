@@ -25,7 +25,9 @@ namespace perideal
    * The bonds resist only what the strain of their family does not explain,
    * which is zero under uniform strain: forces are then those of W alone, and
    * the face gradient makes them vanish inside and equal the tractions at
-   * surfaces. No multipliers are needed; wd is the spherical weight of XOSB (28).
+   * surfaces. No multipliers are needed; wd is the spherical weight of XOSB (28), with
+   * distances measured in the shape of the horizon: where that follows the cells,
+   * bonds along a cell's long and short side weigh alike.
    * Bonds between different materials do not exist: the faces join those.
    */
   template <int dim>
@@ -38,19 +40,24 @@ namespace perideal
     static constexpr const char *best_influence     = "cubic spline";
 
     /// @param stabilisation s [-]
-    /// @param thickness of a two-dimensional body [m], 1 in 3-D
-    Consistent(const InfluenceFunction &influence, const double stabilisation, const double thickness);
+    /// @param horizon_factor horizon over spacing [-]
+    Consistent(const InfluenceFunction &influence, const double stabilisation, const double horizon_factor);
 
-    /// The part of a bond's stiffness that both its families share, omega V_i V_j/|xi|^2 [m^4].
-    /// @param bond_horizon the larger horizon of the bond's ends [m]
-    double bond_share(const double length_square,
-                      const double bond_horizon,
-                      const double volume,
-                      const double other_volume) const;
-
-    /// The part of one family: times bond_share() it is b = 2 s mu V_i V_j wd/|xi|^2,
-    /// so that a bond stores b/2 (xi.(u_j-u_i) - xi.eps xi)^2.
-    double family_share(const double shear_modulus, const double horizon) const;
+    /// What a family adds to the stiffness of a bond, b = 2 s mu V_i V_j wd/|xi|^2: with
+    /// r = xi.(u_j-u_i) - xi.eps_i xi it stores b/2 r^2.
+    /// @param distance_square of the other end in the family's horizon, 1 at its rim [-]
+    /// @param bond_distance the smaller distance of the bond's ends in each other's horizon [-]
+    /// @param other_volume of the bond's other end [m^3]
+    double bond_stiffness(const double length_square,
+                          const double distance_square,
+                          const double bond_distance,
+                          const double other_volume,
+                          const double shear_modulus) const
+    {
+      // omega by the nearer horizon from both ends.
+      return factor * shear_modulus * other_volume * influence.value(bond_distance, 1., 1.) *
+             distance_square / (length_square * length_square);
+    }
 
     /// sigma = dW/d eps [Pa].
     static dealii::SymmetricTensor<2, dim> stress(const dealii::SymmetricTensor<2, dim> &strain,
@@ -65,7 +72,7 @@ namespace perideal
 
   private:
     InfluenceFunction influence;
-    double            stabilisation, thickness;
+    double            factor;
   };
 } // namespace perideal
 

@@ -32,9 +32,9 @@ namespace perideal
   };
 
   /// The consistent form, of resolved parameters.
-  /// @param thickness of a two-dimensional body [m], 1 in 3-D
+  /// @param horizon_factor horizon over spacing [-]
   template <int dim>
-  Consistent<dim> create_consistent(const ModelParameters &parameters, const double thickness);
+  Consistent<dim> create_consistent(const ModelParameters &parameters, const double horizon_factor);
 
   /// Any other model, of resolved parameters.
   /// @param thickness of a two-dimensional body [m], 1 in 3-D

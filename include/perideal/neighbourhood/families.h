@@ -13,7 +13,8 @@ namespace perideal
 {
   /**
    * The families of the nodes of this rank by the union rule: j belongs to the
-   * family of i when |x_j - x_i| <= max(horizon_i, horizon_j), so that every
+   * family of i when it lies within the horizon of i or i within that of j, for
+   * spheres |x_j - x_i| <= max(horizon_i, horizon_j), so that every
    * bond has two ends (XOSB eq. 71).
    *
    * Local numbers: owned nodes first, as in the cloud, then ghosts, the nodes of
@@ -63,6 +64,8 @@ namespace perideal
     std::vector<double>                     volume;
     std::vector<double>                     horizon;
     std::vector<dealii::types::material_id> material;
+    /// Shapes of the horizons as in the cloud; empty where all are spheres.
+    std::vector<dealii::Tensor<2, dim>> shape;
 
     /// Global numbers of the ghosts, ascending, and the rank that owns each.
     std::vector<GlobalIndex>  ghost_number;
@@ -72,6 +75,8 @@ namespace perideal
 
   private:
     void search(const NodeCloud<dim> &nodes);
+    /// Drops members of which neither horizon holds the other, where they are no spheres.
+    void keep_within_shapes(const LocalIndex i, std::vector<LocalIndex> &members) const;
     void drop_unused_ghosts();
 
     LocalIndex              n_owned_nodes;

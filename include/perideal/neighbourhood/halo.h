@@ -18,6 +18,9 @@ namespace perideal
     dealii::Point<dim>         position;
     double                     volume, horizon;
     dealii::types::material_id material;
+    /// Zero where horizons are spheres.
+    dealii::Tensor<2, dim> shape;
+    dealii::Tensor<1, dim> reach;
   };
 
   /**

@@ -16,11 +16,13 @@ namespace perideal
   struct HorizonBox
   {
     dealii::Point<dim> lower, upper;
-    /// Largest horizon of the points inside [m].
+    /// How far the horizons of the points inside reach along each axis, at most [m].
+    dealii::Tensor<1, dim> reach;
+    /// Radius of spheres around these horizons [m].
     double horizon = 0;
 
-    /// Squared distance to another box [m^2], 0 where they overlap.
-    double distance_square(const HorizonBox &other) const;
+    /// The box around a node.
+    static HorizonBox of(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &reach);
     /// True when a point of one box may be in the family of a point of the other (union rule).
     bool may_interact(const HorizonBox &other) const;
     void include(const HorizonBox &other);
@@ -39,8 +41,8 @@ namespace perideal
     /// Points in a leaf.
     static constexpr LocalIndex leaf_size = 16;
 
-    /// The arrays must outlive the tree. @param horizon in [m], as long as @p position.
-    PointTree(const std::vector<dealii::Point<dim>> &position, const std::vector<double> &horizon);
+    /// @param boxes around one point each, in the order of the points
+    explicit PointTree(const std::vector<HorizonBox<dim>> &boxes);
 
     LocalIndex n_leaves() const
     {

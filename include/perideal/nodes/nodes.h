@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <string>
 #include <vector>
 
 namespace perideal
@@ -16,6 +17,8 @@ namespace perideal
   {
     /// Horizon of a node over its spacing [-].
     double horizon_factor = 3.01;
+    /// automatic | sphere | cell: whether horizons are spheres or have the shape of the cells.
+    std::string horizon_shape = "automatic";
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError when the factor cannot make families.
@@ -31,6 +34,9 @@ namespace perideal
   {
     LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
 
+    /// How far the horizon of node @p i reaches along each axis [m].
+    dealii::Tensor<1, dim> reach(const LocalIndex i) const;
+
     /// Sets first_global and n_global from the sizes on all ranks. Collective.
     void number();
 
@@ -40,8 +46,12 @@ namespace perideal
     std::vector<double> volume;
     /// Edge length of the square or cube of equal measure [m].
     std::vector<double> spacing;
-    /// Horizon factor times spacing [m].
+    /// Horizon factor times spacing [m]: the radius of a spherical horizon, and
+    /// of the sphere with the volume of one that has the shape of the cell.
     std::vector<double> horizon;
+    /// The shape of the horizon, a map to the unit sphere: xi is within when
+    /// |shape xi| <= 1 [1/m]. Empty where all horizons are spheres.
+    std::vector<dealii::Tensor<2, dim>> shape;
     /// Material (cell group) of the node.
     std::vector<dealii::types::material_id> material;
 
@@ -66,6 +76,12 @@ namespace perideal
     /// Local node of a locally owned active cell, by active_cell_index();
     /// dealii::numbers::invalid_unsigned_int for other cells.
     std::vector<LocalIndex> node_of_cell;
+
+    /// Longest over shortest edge of the cells of all ranks.
+    double mean_aspect_ratio = 1, max_aspect_ratio = 1;
+
+  private:
+    void choose_shape(const Mesh<dim> &mesh, const NodeParameters &parameters);
   };
 } // namespace perideal
 

@@ -63,7 +63,12 @@ namespace perideal
   private:
     static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
     static constexpr unsigned int n_parts = dim - 1;
-    using Pairs                           = std::array<double, n_pairs>;
+    /// Values of the two ends of every bond, by slot.
+    struct Ends
+    {
+      std::vector<double> near, far;
+    };
+    using Pairs = std::array<double, n_pairs>;
     /// A vector of pairs as the bond loop reads it: 2-D one record (xx, yy, xy, 0),
     /// 3-D two: (xx, yy, zz, 0), (xy, yz, zx, 0).
     using PairRecord = std::array<NodeRecord, n_parts>;
@@ -119,6 +124,12 @@ namespace perideal
     void strain_row(const LocalIndex i, StrainRow &row) const;
     /// V C as a matrix on strain pairs [Pa m^3].
     std::array<Pairs, n_pairs> elasticity(const LocalIndex i) const;
+    /// Distance from the node of a member to another one in the former's horizon, squared.
+    double distance_square(const LocalIndex m, const dealii::Tensor<1, dim> &bond) const
+    {
+      return families->shape.empty() ? bond.norm_square() / (families->horizon[m] * families->horizon[m]) :
+                                       (families->shape[m] * bond).norm_square();
+    }
     /// Calls visit(j, bond, b_ij) for the members of a family.
     template <typename Visit>
     void visit_family(const LocalIndex i, const Visit &visit) const;
@@ -136,8 +147,8 @@ namespace perideal
     std::vector<GlobalIndex> global_number;
     LocalIndex               n_owned, n_local;
     std::vector<Moduli>      material;
-    /// By slot and by node.
-    std::vector<double> bond_share, family_share;
+    /// Bond stiffness b of the families of either end, by slot [N/m^3].
+    Ends stiffness;
     /// Prescribed entries [first, last) of the owned nodes that have any.
     std::map<LocalIndex, EntryRange> prescribed_of_node;
     // Work space of vmult().

@@ -62,7 +62,7 @@ namespace
           body.families,
           std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; }),
           std::make_shared<const FaceValues<dim>>(),
-          create_consistent<dim>(parameters, 1.),
+          create_consistent<dim>(parameters, 3.01),
           moduli);
       else
         bonds = create_bond_operator<dim>(body.families, *create_model<dim>(parameters, 1.), moduli);

@@ -35,7 +35,7 @@ namespace
       values = std::make_shared<FaceValues<dim>>(*gradient, loads, boundaries);
       values->set_time(loads, 1.);
       bonds = std::make_shared<ConsistentOperator<dim>>(
-        body.families, gradient, values, create_consistent<dim>(parameters, 1.), moduli);
+        body.families, gradient, values, create_consistent<dim>(parameters, 3.01), moduli);
       for (NodalVector *vector : {&displacement, &force, &external})
         bonds->initialize(*vector);
     }
