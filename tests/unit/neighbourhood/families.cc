@@ -22,16 +22,23 @@ namespace
         position.insert(position.end(), part.begin(), part.end());
       for (const auto &part : dealii::Utilities::MPI::all_gather(nodes.communicator, nodes.horizon))
         horizon.insert(horizon.end(), part.begin(), part.end());
+      for (const auto &part : dealii::Utilities::MPI::all_gather(nodes.communicator, nodes.shape))
+        shape.insert(shape.end(), part.begin(), part.end());
     }
 
     bool share_bond(const std::size_t i, const std::size_t j) const
     {
+      const auto   bond  = position[j] - position[i];
       const double reach = std::max(horizon[i], horizon[j]);
-      return i != j && (position[j] - position[i]).norm_square() <= reach * reach;
+      if (shape.empty())
+        return i != j && bond.norm_square() <= reach * reach;
+      return i != j && ((shape[i] * bond).norm_square() <= 1 || (shape[j] * bond).norm_square() <= 1);
     }
 
     std::vector<dealii::Point<dim>> position;
     std::vector<double>             horizon;
+    /// Empty where horizons are spheres.
+    std::vector<dealii::Tensor<2, dim>> shape;
   };
 
   /// Every family is what trying all pairs gives.
@@ -61,7 +68,8 @@ namespace
 
   /// A box whose cells grow along x, so that horizons differ by @p ratio.
   template <int dim>
-  NodeCloud<dim> graded_nodes(const std::vector<unsigned int> &cells, const double ratio)
+  NodeCloud<dim>
+  graded_nodes(const std::vector<unsigned int> &cells, const double ratio, const std::string &horizon_shape)
   {
     dealii::Point<dim> size;
     for (int d = 0; d < dim; ++d)
@@ -73,7 +81,9 @@ namespace
         return vertex;
       },
       mesh->triangulation);
-    return Nodes<dim>(*mesh, NodeParameters{2.2});
+    Nodes<dim> nodes(*mesh, NodeParameters{2.2, horizon_shape});
+    EXPECT_EQ(nodes.shape.empty(), horizon_shape == "sphere");
+    return nodes;
   }
 } // namespace
 
@@ -81,14 +91,16 @@ TEST(Families, MatchAllPairs2D)
 {
   for (const auto &mesh : test::make_boxes<2>())
     expect_all_pairs<2>(Nodes<2>(*mesh, NodeParameters{3.01}));
-  expect_all_pairs<2>(graded_nodes<2>({30, 6}, 40.));
+  expect_all_pairs<2>(graded_nodes<2>({30, 6}, 40., "sphere"));
+  expect_all_pairs<2>(graded_nodes<2>({30, 6}, 40., "cell"));
 }
 
 TEST(Families, MatchAllPairs3D)
 {
   for (const auto &mesh : test::make_boxes<3>())
     expect_all_pairs<3>(Nodes<3>(*mesh, NodeParameters{3.01}));
-  expect_all_pairs<3>(graded_nodes<3>({14, 4, 4}, 10.));
+  expect_all_pairs<3>(graded_nodes<3>({14, 4, 4}, 10., "sphere"));
+  expect_all_pairs<3>(graded_nodes<3>({14, 4, 4}, 10., "cell"));
 }
 
 TEST(Families, RegularLatticeHasTheKnownSize)
