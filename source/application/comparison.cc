@@ -41,10 +41,8 @@ namespace perideal
   }
 
   template <int dim>
-  NodalField<dim> solve_reference(const SceneState<dim> &scene,
-                                  const unsigned int     refinements,
-                                  const double           time,
-                                  Timings               &timings)
+  NodalField<dim>
+  solve_reference(const SceneState<dim> &scene, const int refinements, const double time, Timings &timings)
   {
     const Timings::Scope scope(timings, "reference");
     ElasticFem<dim>      fem(*scene.mesh, scene.loads, 2, refinements);
@@ -136,8 +134,7 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template NodalField<dim> solve_fem(                                                                        \
     const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);               \
-  template NodalField<dim> solve_reference(                                                                  \
-    const SceneState<dim> &, const unsigned int, const double, Timings &);                                   \
+  template NodalField<dim> solve_reference(const SceneState<dim> &, const int, const double, Timings &);     \
   template NodalField<dim> evaluate_exact(                                                                   \
     const SceneState<dim> &, const ComparisonParameters &, const double);                                    \
   template nlohmann::ordered_json compare(                                                                   \

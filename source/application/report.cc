@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
+#include <perideal/base/text.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <chrono>
 #include <cmath>
@@ -20,15 +20,6 @@ namespace perideal
     double seconds_now()
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
-
-    /// "12,345,678".
-    std::string grouped(const GlobalIndex number)
-    {
-      std::string text = std::to_string(number);
-      for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3)
-        text.insert(at, ",");
-      return text;
     }
   } // namespace
 
@@ -120,33 +111,6 @@ namespace perideal
     return out.str();
   }
 
-  template <int dim>
-  std::vector<std::string> warnings(const SceneParameters &parameters, const SceneState<dim> &scene)
-  {
-    std::vector<std::string> result;
-    const auto               statistics = scene.families->statistics();
-    const unsigned int       wanted     = dim == 2 ? 5 : 15;
-    if (statistics.min < wanted)
-      result.push_back("the smallest family has " + std::to_string(statistics.min) +
-                       " members, fewer than the " + std::to_string(wanted) +
-                       " moment conditions: enlarge Nodes/Horizon factor");
-    const double nu     = parameters.material.body.poisson_ratio;
-    const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
-    if (!stress && nu > 0.45)
-      result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
-    if (scene.bonds && scene.bonds->counts.singular > 0)
-      result.push_back(grouped(scene.bonds->counts.singular) +
-                       " families miss a moment condition: uniform strain is not exact there (corners, thin "
-                       "parts, flat cells, small horizon); see the field \"family status\"");
-    if (parameters.model.model == "ordinary")
-      result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
-    const double ratio = dealii::GridTools::maximal_cell_diameter(scene.mesh->triangulation) /
-                         dealii::GridTools::minimal_cell_diameter(scene.mesh->triangulation);
-    if (ratio > 100)
-      result.push_back("cell sizes differ by a factor of " + short_number(ratio));
-    return result;
-  }
-
   std::string timing_table(const std::map<std::string, double> &seconds)
   {
     std::vector<std::vector<std::string>> rows;
@@ -224,11 +188,10 @@ namespace perideal
     out << line.str() << "      " << std::flush;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                              \
-  template Json                     describe_discretisation(const SceneParameters &, const SceneState<dim> &); \
-  template Json                     list_skipped(const SceneParameters &, const SceneState<dim> &);            \
-  template std::string              banner(const SceneParameters &, const SceneState<dim> &);                  \
-  template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &);            \
+  template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);                       \
+  template std::string banner(const SceneParameters &, const SceneState<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

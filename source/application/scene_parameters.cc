@@ -24,8 +24,9 @@ namespace perideal
                       Bool());
     prm.add_parameter("Reference refinements",
                       reference_refinements,
-                      "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself",
-                      Integer(0, 4));
+                      "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself, -1 on the "
+                      "mesh with one of its Mesh/Refinements less, for bodies that leave no room for more",
+                      Integer(-1, 4));
     prm.add_parameter("Profiles",
                       profiles,
                       "Boundaries (physical names or ids) along which displacements are written to "
@@ -83,6 +84,10 @@ namespace perideal
     material.check();
     solver.check();
     resolve();
+    if (comparison.reference_refinements < 0 && mesh.refinements == 0)
+      throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
+        .parameter("Comparison/Reference refinements")
+        .allowed("0 to 4, or -1 where Mesh/Refinements is 1 or more");
     for (const std::string &field : field_names())
       {
         const auto known = output_field_names();

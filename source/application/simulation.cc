@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/advice.h>
 #include <perideal/application/boundary_stress.h>
 #include <perideal/application/comparison.h>
 #include <perideal/application/output_fields.h>
@@ -8,9 +9,11 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/mesh/create_mesh.h>
+#include <perideal/mesh/parent_mesh.h>
 #include <perideal/operators/mirror_reactions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
+#include <perideal/solvers/preconditioner_choice.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/grid/grid_tools.h>
@@ -133,8 +136,6 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::make_gradient()
   {
-    if (!parameters.model.is_consistent() && !needs_gradient(parameters.field_names()))
-      return;
     const Timings::Scope part(timings, "setup: face gradient");
     scene.gradient = std::make_shared<const FaceGradient<dim>>(
       *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
@@ -154,7 +155,8 @@ namespace perideal
       const ElasticConstants &constants = scene.constants.at(id);
       return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
     };
-    make_gradient();
+    if (parameters.model.is_consistent() || needs_gradient(parameters.field_names()))
+      make_gradient();
     if (parameters.model.is_consistent())
       {
         const Timings::Scope part(timings, "setup: weights");
@@ -228,13 +230,25 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const Timings::Scope part(timings, "setup: preconditioner");
-    if (parameters.solver.needs_auxiliary_space())
+    const auto           choice = choose_preconditioner(parameters.solver,
+                                              measure_solve(*scene.mesh,
+                                                            *scene.nodes,
+                                                            *scene.system,
+                                                            scene.families->n_bonds(),
+                                                            parameters.model.is_consistent()));
+    if (choice.preconditioner == "auxiliary")
       {
-        scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
+        if (choice.auxiliary_mesh == "parent")
+          scene.auxiliary_fem =
+            std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads, create_parent_mesh(*scene.mesh));
+        else
+          scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
         scene.auxiliary_fem->assemble(scene.constants, 0.);
       }
     scene.linear_solver = create_linear_solver(
-      parameters.solver, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+      parameters.solver, choice, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+    summary["solver"]["preconditioner"] = choice.preconditioner;
+    summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
   }
 
   template <int dim>

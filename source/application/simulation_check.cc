@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/advice.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/fracture/critical_stretch.h>
@@ -44,6 +45,12 @@ namespace perideal
         else
           screen << "no fracture energy given, unbreakable\n";
       }
+    if (!scene.gradient)
+      make_gradient();
+    const auto       &deficient  = scene.gradient->deficient();
+    const GlobalIndex thin_cells = dealii::Utilities::MPI::sum<GlobalIndex>(
+      std::count(deficient.begin(), deficient.end(), true), communicator);
+    screen << "suits       " << suitable_form(parameters, scene, thin_cells) << '\n';
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << '\n';
     find_free_motions();

@@ -3,6 +3,7 @@
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/elastic_fem.h>
+#include <perideal/fem/polynomial_multigrid.h>
 #include <perideal/mesh/create_mesh.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -14,16 +15,50 @@
 
 namespace perideal
 {
+  namespace
+  {
+    /// The copy of a mesh that elements live on, or null for the mesh itself.
+    template <int dim>
+    std::shared_ptr<const dealii::Triangulation<dim>>
+    make_cells(const Mesh<dim> &mesh, const unsigned int degree, const int refinements)
+    {
+      if (degree == 1 && refinements == 0)
+        return nullptr;
+      auto cells = std::make_shared<dealii::parallel::distributed::Triangulation<dim>>(
+        mesh.triangulation.get_communicator());
+      copy_refined(mesh, refinements, *cells);
+      return cells;
+    }
+  } // namespace
+
   template <int dim>
   ElasticFem<dim>::ElasticFem(const Mesh<dim>   &mesh,
                               const Loads<dim>  &loads,
                               const unsigned int degree,
-                              const unsigned int refinements)
-    : mesh(mesh)
+                              const int          refinements)
+    : ElasticFem(mesh, loads, degree, make_cells(mesh, degree, refinements))
+  {
+  }
+
+  template <int dim>
+  ElasticFem<dim>::ElasticFem(const Mesh<dim>                                  &mesh,
+                              const Loads<dim>                                 &loads,
+                              std::shared_ptr<const dealii::Triangulation<dim>> cells)
+    : ElasticFem(mesh, loads, 1, std::move(cells))
+  {
+  }
+
+  template <int dim>
+  ElasticFem<dim>::ElasticFem(const Mesh<dim>                                  &mesh,
+                              const Loads<dim>                                 &loads,
+                              const unsigned int                                degree,
+                              std::shared_ptr<const dealii::Triangulation<dim>> cells)
+    : body(mesh)
     , loads(loads)
     , has_body_force(std::any_of(loads.body_force.begin(),
                                  loads.body_force.end(),
                                  [](const SpaceTimeFunction<dim> &force) { return force.is_present(); }))
+    , own_cells(std::move(cells))
     , geometry(degree)
     , element(dealii::FE_Q<dim>(degree), dim)
   {
@@ -32,16 +67,10 @@ namespace perideal
         for (const std::string &boundary : condition.boundaries)
           tractions.emplace(mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary"),
                             &condition);
-
-    if (degree == 1 && refinements == 0)
-      unknowns.reinit(mesh.triangulation);
+    if (own_cells != nullptr)
+      unknowns.reinit(*own_cells);
     else
-      {
-        refined = std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(
-          mesh.triangulation.get_communicator());
-        copy_refined(mesh, refinements, *refined);
-        unknowns.reinit(*refined);
-      }
+      unknowns.reinit(mesh.triangulation);
   }
 
   template <int dim>
@@ -53,7 +82,7 @@ namespace perideal
     dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
     held.reinit(relevant);
     dealii::DoFTools::make_hanging_node_constraints(unknowns, held);
-    add_prescribed_displacements(geometry, unknowns, mesh, loads, time, held);
+    add_prescribed_displacements(geometry, unknowns, body, loads, time, held);
     pins = pin_free_motions(geometry, unknowns, held);
     held.close();
   }
@@ -110,12 +139,13 @@ namespace perideal
   {
     this->constants = constants;
     this->time      = time;
-    preconditioner.reset();
+    algebraic_multigrid.reset();
+    polynomial_multigrid.reset();
     unknowns.distribute_dofs(element);
     make_constraints();
     make_sparsity();
 
-    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? mesh.thickness : 1.);
+    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
     const unsigned int                           n = element.n_dofs_per_cell();
     dealii::FullMatrix<double>                   matrix(n, n);
     dealii::Vector<double>                       forces(n);
@@ -134,13 +164,20 @@ namespace perideal
   template <int dim>
   void ElasticFem<dim>::set_up_solver()
   {
-    preconditioner = std::make_unique<AlgebraicMultigrid<dim>>(*this, true);
+    if (element.degree == 1)
+      algebraic_multigrid = std::make_unique<AlgebraicMultigrid<dim>>(*this, true);
+    else
+      {
+        auto linear = std::make_unique<ElasticFem<dim>>(body, loads, own_cells);
+        linear->assemble(constants, time);
+        polynomial_multigrid = std::make_unique<PolynomialMultigrid<dim>>(*this, std::move(linear));
+      }
   }
 
   template <int dim>
   unsigned int ElasticFem<dim>::solve(const double tolerance)
   {
-    if (preconditioner == nullptr)
+    if (algebraic_multigrid == nullptr && polynomial_multigrid == nullptr)
       set_up_solver();
     const unsigned int    largest_number_of_iterations = 2000;
     dealii::SolverControl control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
@@ -148,7 +185,10 @@ namespace perideal
     displacement = 0.;
     try
       {
-        cg.solve(stiffness, displacement, right_hand_side, *preconditioner);
+        if (algebraic_multigrid != nullptr)
+          cg.solve(stiffness, displacement, right_hand_side, *algebraic_multigrid);
+        else
+          cg.solve(stiffness, displacement, right_hand_side, *polynomial_multigrid);
       }
     catch (const dealii::SolverControl::NoConvergence &error)
       {

@@ -21,8 +21,8 @@ namespace perideal
   std::vector<dealii::Tensor<1, dim>>
   ElasticFem<dim>::evaluate_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const
   {
-    Assert(refined == nullptr, dealii::ExcMessage("the cells are those of the mesh itself only"));
-    AssertDimension(point_of_cell.size(), mesh.triangulation.n_active_cells());
+    Assert(is_on_mesh_itself(), dealii::ExcMessage("the cells are those of the mesh itself only"));
+    AssertDimension(point_of_cell.size(), body.triangulation.n_active_cells());
 
     std::vector<dealii::Tensor<1, dim>>          result(point_of_cell.size());
     const dealii::FiniteElement<dim>            &scalar = element.base_element(0);
@@ -55,7 +55,7 @@ namespace perideal
     dealii::DoFTools::make_hanging_node_constraints(unknowns, hanging);
     hanging.close();
 
-    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? mesh.thickness : 1.);
+    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
     const unsigned int                           n = element.n_dofs_per_cell();
     dealii::FullMatrix<double>                   matrix(n, n);
     dealii::Vector<double>                       forces(n), values(n), residual(n);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/text.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/generators.h>
+#include <perideal/mesh/local_refinement.h>
 #include <perideal/mesh/manifolds.h>
 #include <perideal/mesh/mesh_checks.h>
 #include <perideal/mesh/mesh_file.h>
@@ -9,21 +11,13 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace perideal
 {
   namespace
   {
-    /// "7,680"
-    std::string with_commas(const std::uint64_t number)
-    {
-      std::string text = std::to_string(number);
-      for (int position = static_cast<int>(text.size()) - 3; position > 0; position -= 3)
-        text.insert(position, ",");
-      return text;
-    }
-
     template <int dim>
     void fill(const MeshParameters &parameters,
               MPI_Comm              communicator,
@@ -75,6 +69,8 @@ namespace perideal
     parameters.check();
     CoarseMesh<dim> coarse;
     fill(parameters, communicator, scene_directory, coarse);
+    if (parameters.distortion > 0)
+      dealii::GridTools::distort_random(parameters.distortion, coarse.triangulation);
     check_coarse_mesh(coarse);
     check_refinements(parameters, coarse);
 
@@ -85,30 +81,47 @@ namespace perideal
     check_cylinders(coarse);
     mesh->cylinders   = coarse.cylinders;
     mesh->refinements = parameters.refinements;
-    mesh->thickness   = dim == 2 ? parameters.thickness : 1.;
+    for (const std::string &name : parameters.refine_at)
+      mesh->local_refinement.boundaries.insert(mesh->boundary_id(name, "Mesh/Refine at"));
+    mesh->local_refinement.times  = parameters.refine_times;
+    mesh->local_refinement.layers = parameters.refine_layers;
+    mesh->thickness               = dim == 2 ? parameters.thickness : 1.;
 
     attach_manifolds(coarse.cylinders, coarse.triangulation);
     mesh->triangulation.copy_triangulation(coarse.triangulation);
     coarse.triangulation.clear();
-    mesh->triangulation.refine_global(parameters.refinements);
-    mesh->description = coarse.origin + ", " + with_commas(mesh->triangulation.n_global_active_cells()) +
+    mesh->triangulation.refine_global(mesh->refinements);
+    refine_locally(mesh->local_refinement, mesh->triangulation);
+    if (mesh->refinements + mesh->local_refinement.times > 0)
+      check_refined_mesh(mesh->triangulation, coarse.origin);
+    mesh->description = coarse.origin + ", " + grouped(mesh->triangulation.n_global_active_cells()) +
                         (dim == 2 ? " quads" : " hexes");
+    for (const auto id : mesh->local_refinement.boundaries)
+      mesh->description +=
+        ", refined " + std::to_string(parameters.refine_times) + " times at " + mesh->boundary_name(id);
     return mesh;
   }
 
   template <int dim>
-  void copy_refined(const Mesh<dim>            &mesh,
-                    const unsigned int          further_refinements,
-                    dealii::Triangulation<dim> &copy)
+  void copy_refined(const Mesh<dim> &mesh, const int further_refinements, dealii::Triangulation<dim> &copy)
   {
+    Assert(further_refinements >= 0 ||
+             (further_refinements == -1 && mesh.refinements + mesh.local_refinement.times > 0),
+           dealii::ExcMessage("one refinement less needs one"));
     const auto [vertices, cells, groups] = dealii::GridTools::get_coarse_mesh_description(mesh.triangulation);
     copy.create_triangulation(vertices, cells, groups);
     attach_manifolds(mesh.cylinders, copy);
-    copy.refine_global(mesh.refinements + further_refinements);
+    unsigned int    globally = mesh.refinements;
+    LocalRefinement locally  = mesh.local_refinement;
+    if (further_refinements < 0)
+      --(globally > 0 ? globally : locally.times);
+    copy.refine_global(globally);
+    refine_locally(locally, copy);
+    copy.refine_global(std::max(further_refinements, 0));
   }
 
   template std::unique_ptr<Mesh<2>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
   template std::unique_ptr<Mesh<3>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
-  template void copy_refined(const Mesh<2> &, const unsigned int, dealii::Triangulation<2> &);
-  template void copy_refined(const Mesh<3> &, const unsigned int, dealii::Triangulation<3> &);
+  template void                     copy_refined(const Mesh<2> &, const int, dealii::Triangulation<2> &);
+  template void                     copy_refined(const Mesh<3> &, const int, dealii::Triangulation<3> &);
 } // namespace perideal

@@ -3,6 +3,7 @@
 #include <perideal/mesh/mesh_checks.h>
 
 #include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -193,6 +194,31 @@ namespace perideal
     check_boundary_groups(mesh);
   }
 
+  template <int dim>
+  void check_refined_mesh(const dealii::Triangulation<dim> &triangulation, const std::string &origin)
+  {
+    std::string first;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && first.empty())
+        {
+          const std::string defect = shape_defect<dim>(cell);
+          if (defect.empty())
+            continue;
+          std::ostringstream text;
+          text << "after refinement the cell about (" << cell->center() << ") " << defect;
+          first = text.str();
+        }
+    const MPI_Comm communicator = triangulation.get_communicator();
+    for (const std::string &found : dealii::Utilities::MPI::all_gather(communicator, first))
+      if (!found.empty())
+        throw InputError(found)
+          .location(origin)
+          .parameter("Mesh/Refinements")
+          .hint("make the coarse mesh finer along its curved boundaries, and refine less");
+  }
+
+  template void check_refined_mesh(const dealii::Triangulation<2> &, const std::string &);
+  template void check_refined_mesh(const dealii::Triangulation<3> &, const std::string &);
   template void check_coarse_mesh(const CoarseMesh<2> &);
   template void check_coarse_mesh(const CoarseMesh<3> &);
 } // namespace perideal

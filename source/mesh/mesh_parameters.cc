@@ -40,10 +40,26 @@ namespace perideal
                       "Growth of the cell size of the generator plate with hole, from the hole outwards; "
                       "1: equal cells [-]",
                       Double(1e-3, 1e3));
+    prm.add_parameter("Distortion",
+                      distortion,
+                      "Random displacement of the inner vertices before refinement, as a share of the "
+                      "shortest edge there, for studies; 0.3 is much [-]",
+                      Double(0., 0.5));
     prm.add_parameter("Refinements",
                       refinements,
                       "Uniform refinements; each halves all cells and follows curved boundaries [-]",
                       Integer(0, 15));
+    prm.add_parameter("Refine at",
+                      refine_at,
+                      "Boundaries (names or ids, separated by commas) at which the mesh is refined further: "
+                      "the cells next to them, then their children next to them, and so on",
+                      List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter("Refine times", refine_times, "How often that is done [-]", Integer(0, 12));
+    prm.add_parameter("Refine layers",
+                      refine_layers,
+                      "How many cells deep. One more than the horizon factor, so that no family meets three "
+                      "sizes of cells, keeps the system well conditioned and the error small [-]",
+                      Integer(1, 50));
     prm.add_parameter("Thickness",
                       thickness,
                       "Thickness of a two-dimensional body, > 0; without meaning in 3-D [m]",
@@ -72,6 +88,14 @@ namespace perideal
       throw InputError("the thickness must be positive")
         .parameter("Mesh/Thickness")
         .allowed("a number > 0 [m]");
+    if (refine_times > 0 && refine_at.empty())
+      throw InputError("no boundary is named to refine at")
+        .parameter("Mesh/Refine at")
+        .allowed("boundary names or ids, or Refine times = 0");
+    if (refine_times == 0 && !refine_at.empty())
+      throw InputError("boundaries are named to refine at, but not how often")
+        .parameter("Mesh/Refine times")
+        .allowed("1 to 12, or an empty Refine at");
     if (!generator.empty() && !cylinders.empty())
       throw InputError("Cylinders belong to a mesh File; generators know their curved boundaries")
         .parameter("Mesh/Cylinders");

@@ -6,35 +6,105 @@
 
 namespace perideal
 {
+  namespace
+  {
+    /// A cell of the elements and the child in it, or n children for all of it.
+    template <int dim>
+    struct Element
+    {
+      typename dealii::Triangulation<dim>::cell_iterator cell;
+      unsigned int                                       part;
+    };
+
+    /// The element in which a cell of the nodes' mesh lies: itself or its parent.
+    template <int dim>
+    Element<dim> find_element(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                              const dealii::Triangulation<dim>                         &elements)
+    {
+      constexpr unsigned int whole = dealii::GeometryInfo<dim>::max_children_per_cell;
+      Element<dim>           result;
+      if (cell->level() == 0)
+        result = {elements.create_cell_iterator(cell->id()), whole};
+      else
+        {
+          const dealii::CellId id     = cell->id();
+          const unsigned int   child  = *(id.get_child_indices().end() - 1);
+          const auto           parent = elements.create_cell_iterator(cell->parent()->id());
+          if (parent->has_children())
+            result = {parent->child(child), whole};
+          else
+            result = {parent, child};
+        }
+      AssertThrow(result.cell->is_active() && !result.cell->is_artificial(),
+                  dealii::ExcMessage("the elements of this rank do not cover its cells"));
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   AuxiliarySpace<dim>::AuxiliarySpace(const ConstrainedOperator<dim> &system,
                                       const Nodes<dim>               &nodes,
                                       const ElasticFem<dim>          &fem)
     : system(system)
     , smoother(system)
-    , multigrid(fem, false)
-    , vertex_unknowns(nodes.size())
+    , multigrid(fem, !fem.is_on_mesh_itself())
   {
-    // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000 cells.
-    smoother.set_damping(1.3 / estimate_largest_eigenvalue(system, smoother));
+    // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000
+    // cells. Few Lanczos steps do, for iterations hardly depend on it.
+    smoother.set_damping(1.3 / estimate_largest_eigenvalue(system, smoother, 5));
+
+    dealii::Point<dim> middle;
+    for (int d = 0; d < dim; ++d)
+      middle[d] = 0.5;
+    for (unsigned int part = 0; part <= n_vertices; ++part)
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        weights[part][v] = dealii::GeometryInfo<dim>::d_linear_shape_function(
+          part < n_vertices ? dealii::GeometryInfo<dim>::child_to_cell_coordinates(middle, part) : middle, v);
 
     coarse_source.reinit(fem.solution());
     coarse_solution.reinit(fem.solution());
-    const auto &partitioner = *coarse_source.get_partitioner();
-    for (const auto &cell : fem.dof_handler().active_cell_iterators())
+    find_places(nodes, fem);
+    find_dependences(fem);
+    for (unsigned int i = 0; i < coarse_source.locally_owned_size(); ++i)
+      if (fem.constraints().is_constrained(coarse_source.get_partitioner()->local_to_global(i)))
+        constrained.push_back(i);
+  }
+
+  template <int dim>
+  void AuxiliarySpace<dim>::find_places(const Nodes<dim> &nodes, const ElasticFem<dim> &fem)
+  {
+    const dealii::DoFHandler<dim> &unknowns    = fem.dof_handler();
+    const auto                    &elements    = unknowns.get_triangulation();
+    const auto                    &partitioner = *coarse_source.get_partitioner();
+    places.resize(nodes.size());
+    for (const auto &cell : fem.mesh().triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          auto &unknowns = vertex_unknowns[nodes.node_of_cell[cell->active_cell_index()]];
-          for (const unsigned int v : cell->vertex_indices())
+          const Element<dim>                                    element = find_element<dim>(cell, elements);
+          const typename dealii::DoFHandler<dim>::cell_iterator with_unknowns(
+            &elements, element.cell->level(), element.cell->index(), &unknowns);
+          Place &place = places[nodes.node_of_cell[cell->active_cell_index()]];
+          place.part   = element.part;
+          for (const unsigned int v : with_unknowns->vertex_indices())
             {
-              const auto first = cell->vertex_dof_index(v, 0);
-              Assert(cell->vertex_dof_index(v, dim - 1) == first + dim - 1, dealii::ExcInternalError());
-              unknowns[v] = partitioner.global_to_local(first);
+              const auto first = with_unknowns->vertex_dof_index(v, 0);
+              Assert(with_unknowns->vertex_dof_index(v, dim - 1) == first + dim - 1,
+                     dealii::ExcInternalError());
+              place.unknowns[v] = partitioner.global_to_local(first);
             }
         }
-    for (unsigned int i = 0; i < coarse_source.locally_owned_size(); ++i)
-      if (fem.constraints().is_constrained(partitioner.local_to_global(i)))
-        constrained.push_back(i);
+  }
+
+  template <int dim>
+  void AuxiliarySpace<dim>::find_dependences(const ElasticFem<dim> &fem)
+  {
+    const auto &partitioner = *coarse_source.get_partitioner();
+    for (const auto &line : fem.constraints().get_lines())
+      if (partitioner.in_local_range(line.index) || partitioner.is_ghost_entry(line.index))
+        for (const auto &entry : line.entries)
+          dependences.push_back({partitioner.global_to_local(line.index),
+                                 partitioner.global_to_local(entry.first),
+                                 entry.second});
   }
 
   template <int dim>
@@ -43,35 +113,46 @@ namespace perideal
     coarse             = 0.;
     double       *to   = coarse.begin();
     const double *from = fine.begin();
-    for (LocalIndex i = 0; i < vertex_unknowns.size(); ++i)
+    for (LocalIndex i = 0; i < places.size(); ++i)
       {
         double value[dim];
         for (int d = 0; d < dim; ++d)
-          value[d] = system.is_held(dim * i + d) ? 0. : from[dim * i + d] / n_vertices;
-        for (const unsigned int unknown : vertex_unknowns[i])
+          value[d] = system.is_held(dim * i + d) ? 0. : from[dim * i + d];
+        const auto &weight = weights[places[i].part];
+        for (unsigned int v = 0; v < n_vertices; ++v)
           for (int d = 0; d < dim; ++d)
-            to[unknown + d] += value[d];
+            to[places[i].unknowns[v] + d] += weight[v] * value[d];
       }
+    // On each rank's part of the sums; nothing depends on a hanging vertex.
+    for (const Dependence &dependence : dependences)
+      to[dependence.on] += dependence.weight * to[dependence.hanging];
+    for (const Dependence &dependence : dependences)
+      to[dependence.hanging] = 0.;
     coarse.compress(dealii::VectorOperation::add);
     for (const unsigned int i : constrained)
       coarse.local_element(i) = 0.;
   }
 
   template <int dim>
-  void AuxiliarySpace<dim>::add_prolonged(NodalVector &fine, const NodalVector &coarse) const
+  void AuxiliarySpace<dim>::add_prolonged(NodalVector &fine, NodalVector &coarse) const
   {
     coarse.update_ghost_values();
-    const double *from = coarse.begin();
-    double       *to   = fine.begin();
-    for (LocalIndex i = 0; i < vertex_unknowns.size(); ++i)
+    double *from = coarse.begin();
+    for (const Dependence &dependence : dependences)
+      from[dependence.hanging] = 0.;
+    for (const Dependence &dependence : dependences)
+      from[dependence.hanging] += dependence.weight * from[dependence.on];
+    double *to = fine.begin();
+    for (LocalIndex i = 0; i < places.size(); ++i)
       {
-        double value[dim] = {};
-        for (const unsigned int unknown : vertex_unknowns[i])
+        double      value[dim] = {};
+        const auto &weight     = weights[places[i].part];
+        for (unsigned int v = 0; v < n_vertices; ++v)
           for (int d = 0; d < dim; ++d)
-            value[d] += from[unknown + d];
+            value[d] += weight[v] * from[places[i].unknowns[v] + d];
         for (int d = 0; d < dim; ++d)
           if (!system.is_held(dim * i + d))
-            to[dim * i + d] += value[d] / n_vertices;
+            to[dim * i + d] += value[d];
       }
     coarse.zero_out_ghost_values();
   }

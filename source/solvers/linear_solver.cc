@@ -35,9 +35,17 @@ namespace perideal
     prm.add_parameter(
       "Preconditioner",
       preconditioner,
-      "auxiliary: block Jacobi plus multigrid on the finite-element matrix of the same mesh; block "
-      "jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
-      Selection("auxiliary|block jacobi|none"));
+      "automatic: auxiliary or block jacobi, whichever is estimated to take less work; auxiliary: block "
+      "Jacobi plus multigrid on the finite-element matrix of the same body, in few iterations at any "
+      "size; block jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
+      Selection("automatic|auxiliary|block jacobi|none"));
+    prm.add_parameter(
+      "Auxiliary mesh",
+      auxiliary_mesh,
+      "Where the finite elements of the auxiliary preconditioner live. same: on the cells of the "
+      "mesh; parent: on the cells before the last refinement, fewer by 4 (2-D) or 8 (3-D); "
+      "automatic: parent where the mesh was refined",
+      Selection("automatic|same|parent"));
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
@@ -56,11 +64,6 @@ namespace perideal
   bool SolverParameters::assembles() const
   {
     return linear_solver == "direct" || linear_solver.compare(0, 8, "trilinos") == 0;
-  }
-
-  bool SolverParameters::needs_auxiliary_space() const
-  {
-    return preconditioner == "auxiliary" && !assembles();
   }
 
   namespace
@@ -100,11 +103,13 @@ namespace perideal
     {
     public:
       KrylovSolver(const SolverParameters         &parameters,
+                   const PreconditionerChoice     &choice,
                    const ConstrainedOperator<dim> &system,
                    const NullSpace<dim>           &null_space,
                    std::unique_ptr<Preconditioner> preconditioner,
                    const bool                      symmetric)
         : parameters(parameters)
+        , choice(choice)
         , system(system)
         , null_space(null_space)
         , preconditioner(std::move(preconditioner))
@@ -140,7 +145,9 @@ namespace perideal
         return (symmetric             ? "cg, " :
                 system.is_symmetric() ? "gmres, " :
                                         "gmres (the operator is not symmetric), ") +
-               parameters.preconditioner + " preconditioner";
+               choice.preconditioner + " preconditioner" +
+               (choice.auxiliary_mesh == "parent" ? " on the parent mesh" : "") +
+               (choice.reason.empty() ? "" : " (" + choice.reason + ")");
       }
 
     private:
@@ -171,6 +178,7 @@ namespace perideal
       }
 
       const SolverParameters          parameters;
+      const PreconditionerChoice      choice;
       const ConstrainedOperator<dim> &system;
       const NullSpace<dim>           &null_space;
       std::unique_ptr<Preconditioner> preconditioner;
@@ -251,6 +259,7 @@ namespace perideal
 
   template <int dim>
   std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
+                                                          const PreconditionerChoice     &choice,
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,
@@ -278,11 +287,11 @@ namespace perideal
     const auto krylov = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
       using Preconditioner = typename decltype(preconditioner)::element_type;
       return std::make_unique<KrylovSolver<dim, Preconditioner>>(
-        parameters, system, null_space, std::move(preconditioner), symmetric);
+        parameters, choice, system, null_space, std::move(preconditioner), symmetric);
     };
-    if (parameters.preconditioner == "none")
+    if (choice.preconditioner == "none")
       return krylov(std::make_unique<dealii::PreconditionIdentity>());
-    if (parameters.preconditioner == "block jacobi")
+    if (choice.preconditioner == "block jacobi")
       return krylov(std::make_unique<BlockJacobi<dim>>(system));
     Assert(fem != nullptr, dealii::ExcInternalError());
     return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem));
@@ -291,11 +300,13 @@ namespace perideal
   template class LinearSolver<2>;
   template class LinearSolver<3>;
   template std::unique_ptr<LinearSolver<2>> create_linear_solver(const SolverParameters &,
+                                                                 const PreconditionerChoice &,
                                                                  const ConstrainedOperator<2> &,
                                                                  const NullSpace<2> &,
                                                                  const Nodes<2> &,
                                                                  const ElasticFem<2> *);
   template std::unique_ptr<LinearSolver<3>> create_linear_solver(const SolverParameters &,
+                                                                 const PreconditionerChoice &,
                                                                  const ConstrainedOperator<3> &,
                                                                  const NullSpace<3> &,
                                                                  const Nodes<3> &,

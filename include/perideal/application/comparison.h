@@ -21,10 +21,8 @@ namespace perideal
 
   /// Q2 finite elements on the refined mesh, at the nodes. Collective.
   template <int dim>
-  NodalField<dim> solve_reference(const SceneState<dim> &scene,
-                                  const unsigned int     refinements,
-                                  const double           time,
-                                  Timings               &timings);
+  NodalField<dim>
+  solve_reference(const SceneState<dim> &scene, const int refinements, const double time, Timings &timings);
 
   /// The exact solution at the nodes.
   template <int dim>

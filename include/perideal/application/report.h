@@ -28,10 +28,6 @@ namespace perideal
   template <int dim>
   std::string banner(const SceneParameters &parameters, const SceneState<dim> &scene);
 
-  /// Advice on what is likely to spoil the result, one line each. Collective.
-  template <int dim>
-  std::vector<std::string> warnings(const SceneParameters &parameters, const SceneState<dim> &scene);
-
   /// Table of seconds by phase.
   std::string timing_table(const std::map<std::string, double> &seconds);
 

@@ -26,8 +26,8 @@ namespace perideal
     bool fem = false;
     /// Q2 finite elements on the refined mesh.
     bool reference = false;
-    /// Refinements of the reference's mesh.
-    unsigned int reference_refinements = 1;
+    /// Refinements of the reference's mesh; -1: coarsened once.
+    int reference_refinements = 1;
     /// Boundaries along which profiles are written.
     std::vector<std::string> profiles;
     /// Exact displacement by component, formulas in x, y, z, t; empty: none.

@@ -22,6 +22,8 @@ namespace perideal
 {
   template <int dim>
   class AlgebraicMultigrid;
+  template <int dim>
+  class PolynomialMultigrid;
 
   /// Elastic constants by material id; every id of the mesh is listed.
   using ConstantsByMaterial = std::map<dealii::types::material_id, ElasticConstants>;
@@ -43,7 +45,13 @@ namespace perideal
     ElasticFem(const Mesh<dim>   &mesh,
                const Loads<dim>  &loads,
                const unsigned int degree      = 1,
-               const unsigned int refinements = 0);
+               const int          refinements = 0);
+
+    /// Degree-one elements on other cells of the same body, such as the mesh's
+    /// parents, with the mesh's boundary and material ids.
+    ElasticFem(const Mesh<dim>                                  &mesh,
+               const Loads<dim>                                 &loads,
+               std::shared_ptr<const dealii::Triangulation<dim>> cells);
     ~ElasticFem();
 
     /// Distributes unknowns, sets Dirichlet and hanging-node rows at @p time,
@@ -86,6 +94,10 @@ namespace perideal
     /// Components pinned to zero because nothing holds the body there.
     unsigned int n_pins() const { return pins; }
 
+    /// The mesh given to the constructor, and whether the elements are its cells.
+    const Mesh<dim> &mesh() const { return body; }
+    bool             is_on_mesh_itself() const { return own_cells == nullptr; }
+
     const dealii::MappingQ<dim>                  &mapping() const { return geometry; }
     const dealii::DoFHandler<dim>                &dof_handler() const { return unknowns; }
     const dealii::AffineConstraints<double>      &constraints() const { return held; }
@@ -96,6 +108,12 @@ namespace perideal
   private:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
+    /// @param cells null: those of the mesh itself
+    ElasticFem(const Mesh<dim>                                  &mesh,
+               const Loads<dim>                                 &loads,
+               const unsigned int                                degree,
+               std::shared_ptr<const dealii::Triangulation<dim>> cells);
+
     void make_constraints();
     void make_sparsity();
 
@@ -105,22 +123,24 @@ namespace perideal
                      dealii::FullMatrix<double> &matrix,
                      dealii::Vector<double>     &forces) const;
 
-    const Mesh<dim>  &mesh;
+    const Mesh<dim>  &body;
     const Loads<dim> &loads;
     /// Conditions with a traction or pressure, by the boundary they act on.
     std::multimap<dealii::types::boundary_id, const BoundaryCondition<dim> *> tractions;
     bool                                                                      has_body_force;
 
-    /// The refined copy of the mesh, where there is one.
-    std::unique_ptr<dealii::parallel::distributed::Triangulation<dim>> refined;
-    dealii::MappingQ<dim>                                              geometry;
-    dealii::FESystem<dim>                                              element;
-    dealii::DoFHandler<dim>                                            unknowns;
-    dealii::IndexSet                                                   relevant;
-    dealii::AffineConstraints<double>                                  held;
-    dealii::TrilinosWrappers::SparseMatrix                             stiffness;
-    NodalVector                                                        right_hand_side, displacement;
-    std::unique_ptr<AlgebraicMultigrid<dim>>                           preconditioner;
+    /// The cells, where they are not those of the mesh itself.
+    std::shared_ptr<const dealii::Triangulation<dim>> own_cells;
+    dealii::MappingQ<dim>                             geometry;
+    dealii::FESystem<dim>                             element;
+    dealii::DoFHandler<dim>                           unknowns;
+    dealii::IndexSet                                  relevant;
+    dealii::AffineConstraints<double>                 held;
+    dealii::TrilinosWrappers::SparseMatrix            stiffness;
+    NodalVector                                       right_hand_side, displacement;
+    /// The preconditioner of linear or of quadratic elements.
+    std::unique_ptr<AlgebraicMultigrid<dim>>  algebraic_multigrid;
+    std::unique_ptr<PolynomialMultigrid<dim>> polynomial_multigrid;
 
     /// As of the last assembly.
     ConstantsByMaterial constants;

@@ -2,6 +2,8 @@
 #ifndef perideal_mesh_mesh_h
 #define perideal_mesh_mesh_h
 
+#include <perideal/mesh/local_refinement.h>
+
 #include <deal.II/distributed/tria.h>
 
 #include <map>
@@ -36,6 +38,8 @@ namespace perideal
     Cylinders cylinders;
     /// Global refinements between the coarse mesh and the triangulation.
     unsigned int refinements = 0;
+    /// Refinements towards boundaries after that.
+    LocalRefinement local_refinement;
     /// Thickness of a two-dimensional body [m]; 1 in 3-D.
     double thickness = 1.;
     /// One line for the banner: where the mesh comes from and its cells.

@@ -17,6 +17,15 @@ namespace perideal
    */
   template <int dim>
   void check_coarse_mesh(const CoarseMesh<dim> &mesh);
+
+  /**
+   * Refuses cells that refinement folded over: it moves vertices to curved
+   * boundaries. Collective; @p origin is the mesh file or the generator.
+   *
+   * @throws InputError naming the first such cell.
+   */
+  template <int dim>
+  void check_refined_mesh(const dealii::Triangulation<dim> &triangulation, const std::string &origin);
 } // namespace perideal
 
 #endif

@@ -26,8 +26,14 @@ namespace perideal
     double hole_radius = 0.1;
     /// Growth of the cell size over a graded block, from the hole outwards [-].
     double grading = 6.;
+    /// Random displacement of the inner vertices before refinement, as a share of the shortest edge there [-].
+    double distortion = 0.;
     /// Uniform p4est refinements.
     unsigned int refinements = 0;
+    /// Boundaries, by name or id, whose cells are refined after that.
+    std::vector<std::string> refine_at;
+    /// How often they are, and how many cells deep.
+    unsigned int refine_times = 0, refine_layers = 4;
     /// Thickness of a two-dimensional body [m].
     double thickness = 1.;
     /// Boundaries of a mesh file that are circular cylinders about an axis in

@@ -6,21 +6,27 @@
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/operators/block_jacobi.h>
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace perideal
 {
   /**
    * Auxiliary-space preconditioner B = S + P V P^T: block Jacobi S, scaled by
-   * the largest eigenvalue, removes what is rough; V, one multigrid cycle on
-   * the finite-element matrix of the same mesh, what is smooth. P takes the
-   * value of a finite-element field at the middle of each node's cell.
+   * the largest eigenvalue, removes what is rough; V, one multigrid cycle on a
+   * finite-element matrix of the same body, what is smooth. P takes the value
+   * of a finite-element field in the middle of each node's cell.
+   *
+   * The elements live on the cells of the nodes or on their parents, which are
+   * fewer by 2^dim and nearly as good; there V smooths on its finest level, too.
    */
   template <int dim>
   class AuxiliarySpace
   {
   public:
-    /// @param fem degree one on the nodes' mesh, assembled. The arguments must outlive this object.
+    /// @param fem degree one, assembled, on the nodes' mesh or on that of
+    ///   create_parent_mesh(). The arguments must outlive this object.
     AuxiliarySpace(const ConstrainedOperator<dim> &system,
                    const Nodes<dim>               &nodes,
                    const ElasticFem<dim>          &fem);
@@ -28,16 +34,38 @@ namespace perideal
     void vmult(NodalVector &destination, const NodalVector &source) const;
 
   private:
+    static constexpr unsigned int n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
+
+    /// Where a node lies in its element.
+    struct Place
+    {
+      /// First unknown (of dim consecutive ones) at each vertex.
+      std::array<unsigned int, n_vertices> unknowns;
+      /// Entry of weights: number of the child, or n_vertices for the whole element.
+      std::uint8_t part;
+    };
+
+    /// Share that an unknown has in the value of another at a hanging vertex.
+    struct Dependence
+    {
+      unsigned int hanging, on;
+      double       weight;
+    };
+
+    void find_places(const Nodes<dim> &nodes, const ElasticFem<dim> &fem);
+    void find_dependences(const ElasticFem<dim> &fem);
     void restrict_to_fem(NodalVector &coarse, const NodalVector &fine) const;
-    void add_prolonged(NodalVector &fine, const NodalVector &coarse) const;
+    void add_prolonged(NodalVector &fine, NodalVector &coarse) const;
 
     const ConstrainedOperator<dim> &system;
     BlockJacobi<dim>                smoother;
     AlgebraicMultigrid<dim>         multigrid;
 
-    static constexpr unsigned int n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
-    /// First unknown (of dim consecutive ones) at each vertex of each node's cell.
-    std::vector<std::array<unsigned int, n_vertices>> vertex_unknowns;
+    /// Values of the linear shape functions in the middle of each child and of the element.
+    std::array<std::array<double, n_vertices>, n_vertices + 1> weights;
+    std::vector<Place>                                         places;
+    /// Of all hanging vertices that this rank knows.
+    std::vector<Dependence> dependences;
     /// Unknowns of this rank that are constrained: their residual is nobody's business.
     std::vector<unsigned int> constrained;
     mutable NodalVector       coarse_source, coarse_solution;

@@ -12,11 +12,13 @@
 
 namespace perideal
 {
-  /// Largest eigenvalue of the preconditioned operator, from ten Lanczos steps,
-  /// which underestimate it by a few per cent, times 1.1. Collective.
+  /// Largest eigenvalue of the preconditioned operator, from Lanczos steps, ten
+  /// of which underestimate it by a few per cent, times 1.1. Steps that an
+  /// indefinite or unsymmetric operator spoils do not count. Collective.
   template <int dim, typename Preconditioner>
   double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system,
-                                     const Preconditioner           &preconditioner)
+                                     const Preconditioner           &preconditioner,
+                                     const unsigned int              steps = 10)
   {
     NodalVector source, solution;
     system.initialize(source);
@@ -29,12 +31,16 @@ namespace perideal
           source.local_element(i) = std::fmod(std::abs(43758.5453 * std::sin(x)), 1.) - 0.5;
         }
     double                         largest = 0;
-    dealii::IterationNumberControl control(10, 1e-300);
+    dealii::IterationNumberControl control(steps, 1e-300);
     dealii::SolverCG<NodalVector>  cg(control);
-    cg.connect_eigenvalues_slot([&](const std::vector<double> &eigenvalues) {
-      if (!eigenvalues.empty())
-        largest = *std::max_element(eigenvalues.begin(), eigenvalues.end());
-    });
+    cg.connect_eigenvalues_slot(
+      [&](const std::vector<double> &eigenvalues) {
+        // Not a number where the operator is indefinite or not symmetric.
+        for (const double value : eigenvalues)
+          if (std::isfinite(value))
+            largest = std::max(largest, value);
+      },
+      true);
     cg.solve(system, solution, source, preconditioner);
     return 1.1 * largest;
   }

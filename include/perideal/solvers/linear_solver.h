@@ -22,17 +22,27 @@ namespace perideal
     double       tolerance      = 1e-8;
     unsigned int max_iterations = 5000;
     std::string  linear_solver  = "automatic";
-    std::string  preconditioner = "auxiliary";
+    std::string  preconditioner = "automatic";
+    std::string  auxiliary_mesh = "automatic";
     unsigned int load_steps     = 1;
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError on choices that do not go together.
     void check() const;
 
-    /// True when the finite-element matrix is needed.
-    bool needs_auxiliary_space() const;
     /// True when the system is assembled.
     bool assembles() const;
+  };
+
+  /// The preconditioner that a scene gets.
+  struct PreconditionerChoice
+  {
+    /// auxiliary | block jacobi | none
+    std::string preconditioner;
+    /// Of the auxiliary space: same | parent; else empty.
+    std::string auxiliary_mesh;
+    /// Why, for the banner, where the program chose; else empty.
+    std::string reason;
   };
 
   /// What a linear solve did.
@@ -67,9 +77,12 @@ namespace perideal
   /// Chooses the solver: CG where the operator is symmetric, else GMRES, unless
   /// the parameters say otherwise; sets up its preconditioner. The arguments
   /// must outlive the result. Collective.
-  /// @param fem the assembled Q1 problem where the auxiliary space needs it, else a null pointer
+  /// @param choice as of choose_preconditioner()
+  /// @param fem the assembled Q1 problem on the chosen mesh where the auxiliary space needs it,
+  ///   else a null pointer
   template <int dim>
   std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
+                                                          const PreconditionerChoice     &choice,
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,

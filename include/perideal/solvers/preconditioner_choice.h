@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_preconditioner_choice_h
+#define perideal_solvers_preconditioner_choice_h
+
+#include <perideal/solvers/linear_solver.h>
+
+#include <string>
+
+namespace perideal
+{
+  /// What the cost of a static solve is estimated from; numbers of all ranks.
+  struct SolveSize
+  {
+    unsigned int dim = 2;
+    /// Bonds (undirected), cells of the mesh, and cells of its parent mesh (0: it has none).
+    double bonds = 0, cells = 0, parents = 0;
+    /// Longest edge of the body's bounding box over the mean horizon.
+    double length_in_horizons = 0;
+    bool   symmetric          = true;
+    /// Iterations over those that the forms with forces along bonds take.
+    double iteration_factor = 1;
+  };
+
+  /// The size of a scene. Collective.
+  /// @param consistent the form with gradients from faces, whose iterations are more
+  template <int dim>
+  SolveSize measure_solve(const Mesh<dim>                &mesh,
+                          const Nodes<dim>               &nodes,
+                          const ConstrainedOperator<dim> &system,
+                          const GlobalIndex               n_bonds,
+                          const bool                      consistent);
+
+  /// What a static solve is expected to take: iterations, and work in bond
+  /// visits (one bond's share of an iteration, about 7 ns of one core).
+  struct SolveEstimate
+  {
+    double iterations = 0, set_up = 0, solve = 0;
+
+    double total(const unsigned int n_solves) const { return set_up + n_solves * solve; }
+  };
+
+  /**
+   * Krylov iterations with block Jacobi: their number follows from the bodies'
+   * size in horizons, for the longest waves are the slowest to settle, and from
+   * the digits wanted. Slender bodies in tension take a third of it, in bending all.
+   */
+  SolveEstimate estimate_block_jacobi(const SolveSize &size, const double tolerance);
+
+  /// The same with the auxiliary space on a mesh ("same", "parent"), whose
+  /// iterations depend on the tolerance alone, but whose set-up is dear.
+  SolveEstimate
+  estimate_auxiliary(const SolveSize &size, const std::string &auxiliary_mesh, const double tolerance);
+
+  /**
+   * Preconditioner and auxiliary mesh for the parameters: those they name, and
+   * for "automatic" those with the least estimated work.
+   * @throws InputError for the parent mesh of a mesh that was never refined.
+   */
+  PreconditionerChoice choose_preconditioner(const SolverParameters &parameters, const SolveSize &size);
+} // namespace perideal
+
+#endif

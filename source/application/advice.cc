@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/advice.h>
+#include <perideal/base/text.h>
+#include <perideal/output/summary.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  std::string
+  suitable_form(const SceneParameters &parameters, const SceneState<dim> &, const GlobalIndex thin_cells)
+  {
+    const bool consistent = parameters.model.is_consistent();
+    if (thin_cells > 0)
+      return "energy form: " + grouped(thin_cells) +
+             " cells lie in parts one cell thick, across which the consistent form has no gradient" +
+             (consistent ? "; two cells would do" : "");
+    const std::string why =
+      "elastic statics, every cell has a gradient: errors like those of Q1 finite elements";
+    if (consistent)
+      return "consistent form (chosen): " + why;
+    return "consistent form: " + why + ", where the " +
+           (parameters.model.model == "ordinary" ? "ordinary model" : parameters.model.form + " form") +
+           " is off by per cents at surfaces";
+  }
+
+  namespace
+  {
+    /// Smallest sine between the edges of a cell corner (in 3-D their scaled
+    /// triple product) over the corners of all cells: 1 in boxes, 0 when collapsed.
+    template <int dim>
+    double smallest_corner(const Mesh<dim> &mesh)
+    {
+      double result = 1;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              dealii::Tensor<2, dim> edges;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  edges[d] = cell->vertex(v ^ (1u << d)) - cell->vertex(v);
+                  edges[d] /= edges[d].norm();
+                }
+              result = std::min(result, std::abs(determinant(edges)));
+            }
+      return dealii::Utilities::MPI::min(result, mesh.triangulation.get_communicator());
+    }
+
+    template <int dim>
+    void warn_of_cells(const SceneState<dim> &scene, std::vector<std::string> &result)
+    {
+      const double ratio = dealii::GridTools::maximal_cell_diameter(scene.mesh->triangulation) /
+                           dealii::GridTools::minimal_cell_diameter(scene.mesh->triangulation);
+      if (ratio > 100)
+        result.push_back("cell sizes differ by a factor of " + short_number(ratio) +
+                         ": expect more iterations");
+      if (scene.nodes->max_aspect_ratio > 10)
+        result.push_back(
+          "aspect ratio of the cells up to " + short_number(scene.nodes->max_aspect_ratio) +
+          ": expect many iterations" +
+          (scene.nodes->shape.empty() ? ", and spheres that reach no neighbour along the long side" : ""));
+      const double corner = smallest_corner(*scene.mesh);
+      if (corner < 0.3)
+        result.push_back("distorted cells: the sharpest corner has a scaled Jacobian of " +
+                         short_number(corner) + " (1 is a box, 0 a collapsed cell)");
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::string> warnings(const SceneParameters &parameters, const SceneState<dim> &scene)
+  {
+    std::vector<std::string> result;
+    const bool               consistent = parameters.model.is_consistent();
+    const auto               statistics = scene.families->statistics();
+    const unsigned int       wanted     = dim == 2 ? 5 : 15;
+    if (!consistent && statistics.min < wanted)
+      result.push_back("the smallest family has " + std::to_string(statistics.min) +
+                       " members, fewer than the " + std::to_string(wanted) +
+                       " moment conditions: enlarge Nodes/Horizon factor");
+    const double nu     = parameters.material.body.poisson_ratio;
+    const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
+    if (!stress && nu > 0.45)
+      result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
+    if (scene.bonds && scene.bonds->counts.singular > 0)
+      result.push_back(
+        grouped(scene.bonds->counts.singular) +
+        (consistent ? " cells lie in parts one cell thick, across which they have no gradient: take two "
+                      "cells, or Material/Form = energy" :
+                      " families miss a moment condition: uniform strain is not exact there (corners, thin "
+                      "parts, flat cells, small horizon); see the field \"family status\""));
+    if (parameters.model.model == "ordinary")
+      result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
+    if (consistent && (parameters.loads.displacement_treatment == "layer" ||
+                       parameters.loads.displacement_treatment == "reference"))
+      result.push_back("held nodes take from the consistent form the accuracy that face values have");
+    warn_of_cells(scene, result);
+    return result;
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template std::string suitable_form(const SceneParameters &, const SceneState<dim> &, const GlobalIndex);   \
+  template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal
