@@ -39,8 +39,8 @@ namespace perideal
   public:
     /// Degree-one elements on the mesh itself, or elements of degree 1 or 2
     /// (with a mapping of that degree, so that curved boundaries count) on a
-    /// copy of the mesh refined globally @p refinements times. The mesh and the
-    /// loads must outlive this object.
+    /// copy of the mesh refined globally @p refinements times (-1: coarsened once,
+    /// as by copy_refined()). The mesh and the loads must outlive this object.
     /// @throws InputError when a condition names a boundary the mesh has not.
     ElasticFem(const Mesh<dim>   &mesh,
                const Loads<dim>  &loads,

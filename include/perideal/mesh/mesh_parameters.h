@@ -26,7 +26,8 @@ namespace perideal
     double hole_radius = 0.1;
     /// Growth of the cell size over a graded block, from the hole outwards [-].
     double grading = 6.;
-    /// Random displacement of the inner vertices before refinement, as a share of the shortest edge there [-].
+    /// Random displacement of the inner vertices before refinement, as a share of the shortest edge there
+    /// [-].
     double distortion = 0.;
     /// Uniform p4est refinements.
     unsigned int refinements = 0;
