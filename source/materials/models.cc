@@ -61,7 +61,7 @@ namespace perideal
       Selection("consistent|" + selection(ExtendedOrdinary<2>::form_names())));
     prm.add_parameter("Stabilisation",
                       stabilisation,
-                      "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 0.9 in 2-D, 0.4 "
+                      "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
                       "in 3-D, where errors are smallest");
     prm.leave_subsection();
 

@@ -127,12 +127,10 @@ namespace perideal
             continue;
           const auto   bond          = families->position[j] - families->position[i];
           const double length_square = bond.norm_square();
-          const double near = distance_square(i, bond), far = distance_square(j, bond);
-          const double distance = std::sqrt(std::min(near, far));
-          stiffness.near[k] =
-            model.bond_stiffness(length_square, near, distance, families->volume[j], shear_modulus[i]);
-          stiffness.far[k] =
-            model.bond_stiffness(length_square, far, distance, families->volume[i], shear_modulus[j]);
+          stiffness.near[k]          = model.bond_stiffness(
+            length_square, distance_square(i, bond), families->volume[j], shear_modulus[i]);
+          stiffness.far[k] = model.bond_stiffness(
+            length_square, distance_square(j, bond), families->volume[i], shear_modulus[j]);
         }
     for (LocalIndex &j : bonds.neighbour)
       j = node_of_member[j];

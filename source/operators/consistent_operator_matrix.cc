@@ -68,15 +68,12 @@ namespace perideal
     for (const LocalIndex *m = families->begin(i); m != families->end(i); ++m)
       if (families->material[*m] == families->material[i])
         {
-          const auto   bond = families->position[*m] - families->position[i];
-          const double near = distance_square(i, bond), far = distance_square(*m, bond);
-          visit(node_of_member[*m],
-                bond,
-                model.bond_stiffness(bond.norm_square(),
-                                     near,
-                                     std::sqrt(std::min(near, far)),
-                                     families->volume[*m],
-                                     material[i].shear_modulus));
+          const auto bond = families->position[*m] - families->position[i];
+          visit(
+            node_of_member[*m],
+            bond,
+            model.bond_stiffness(
+              bond.norm_square(), distance_square(i, bond), families->volume[*m], material[i].shear_modulus));
         }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/boundary/nodal_forces.h>
+#include <perideal/materials/elastic_state.h>
 #include <perideal/materials/models.h>
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/parameters/elastic_constants.h>
@@ -80,8 +81,10 @@ namespace
       for (int r = 0; r < dim; ++r)
         for (int c = 0; c < dim; ++c)
           gradient[r][c] = 1e-3 * (1. + 2. * r - 0.7 * c + (r == c ? 0.3 : 0.) - 1.9 * r * c);
-      stress =
-        Consistent<dim>::stress(symmetrize(gradient), {constants.bulk_modulus(), constants.shear_modulus()});
+      const ElasticState state = elastic_state<dim>(symmetrize(gradient), constants);
+      for (int r = 0; r < dim; ++r)
+        for (int c = r; c < dim; ++c)
+          stress[r][c] = state.stress[r][c];
     }
 
     dealii::Tensor<1, dim> operator()(const dealii::Point<dim> &x) const { return gradient * x; }
