@@ -59,11 +59,13 @@ namespace perideal
       if (ratio > 100)
         result.push_back("cell sizes differ by a factor of " + short_number(ratio) +
                          ": expect more iterations");
-      if (scene.nodes->max_aspect_ratio > 10)
+      // Spheres of three spacings reach no neighbour along the long side from 9 on.
+      const bool   spheres = scene.nodes->shape.empty();
+      const double aspect  = scene.nodes->max_aspect_ratio;
+      if (aspect > (spheres ? 4. : 10.))
         result.push_back(
-          "aspect ratio of the cells up to " + short_number(scene.nodes->max_aspect_ratio) +
-          ": expect many iterations" +
-          (scene.nodes->shape.empty() ? ", and spheres that reach no neighbour along the long side" : ""));
+          "aspect ratio of the cells up to " + short_number(aspect) + ": expect many iterations" +
+          (spheres ? ", and families that reach few neighbours or none along the long side" : ""));
       const double corner = smallest_corner(*scene.mesh);
       if (corner < 0.3)
         result.push_back("distorted cells: the sharpest corner has a scaled Jacobian of " +
