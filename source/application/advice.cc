@@ -10,9 +10,7 @@
 
 namespace perideal
 {
-  template <int dim>
-  std::string
-  suitable_form(const SceneParameters &parameters, const SceneState<dim> &, const GlobalIndex thin_cells)
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex thin_cells)
   {
     const bool consistent = parameters.model.is_consistent();
     if (thin_cells > 0)
@@ -105,7 +103,6 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::string suitable_form(const SceneParameters &, const SceneState<dim> &, const GlobalIndex);   \
   template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -50,7 +50,7 @@ namespace perideal
     const auto       &deficient  = scene.gradient->deficient();
     const GlobalIndex thin_cells = dealii::Utilities::MPI::sum<GlobalIndex>(
       std::count(deficient.begin(), deficient.end(), true), communicator);
-    screen << "suits       " << suitable_form(parameters, scene, thin_cells) << '\n';
+    screen << "suits       " << suitable_form(parameters, thin_cells) << '\n';
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << '\n';
     find_free_motions();

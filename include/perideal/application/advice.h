@@ -10,13 +10,10 @@
 
 namespace perideal
 {
-  /// Which form suits the scene, and why, in one line. Collective.
+  /// Which form suits the scene, and why, in one line.
   /// @param thin_cells cells in parts of the body that are one cell thick, where
   ///   the face gradient has no linear fit
-  template <int dim>
-  std::string suitable_form(const SceneParameters &parameters,
-                            const SceneState<dim> &scene,
-                            const GlobalIndex      thin_cells);
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex thin_cells);
 
   /// What is likely to spoil the result or to stop the solver, one line each. Collective.
   template <int dim>

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/comparison.h>
+#include <perideal/application/output_fields.h>
+#include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/mesh/create_mesh.h>
+#include <perideal/mesh/parent_mesh.h>
+#include <perideal/solvers/preconditioner_choice.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+// Simulation: the parts of a scene come into being, up to the solver.
+
+namespace perideal
+{
+  template <int dim>
+  const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id id) const
+  {
+    for (const auto &group : parameters.material.groups)
+      if (scene.mesh->material_id(group.first, "Material/" + group.first) == id)
+        return group.second;
+    return parameters.material.body;
+  }
+
+  template <int dim>
+  bool Simulation<dim>::by_nodes() const
+  {
+    return parameters.loads.displacement_treatment == "layer" ||
+           parameters.loads.displacement_treatment == "reference";
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_mesh()
+  {
+    const Timings::Scope scope(timings, "mesh");
+    scene.mesh                 = create_mesh<dim>(parameters.mesh, communicator, context.scene_directory);
+    scene.loads                = Loads<dim>(parameters.loads);
+    scene.condition_boundaries = resolve_boundaries(*scene.mesh, scene.loads);
+    for (const std::string &name : parameters.comparison.profiles)
+      scene.mesh->boundary_id(name, "Comparison/Profiles");
+    for (const std::string &name : parameters.boundary_stress)
+      scene.mesh->boundary_id(name, "Output/Boundary stress");
+    for (const auto &group : parameters.material.groups)
+      scene.mesh->material_id(group.first, "Material/" + group.first);
+    for (const auto id : scene.mesh->material_ids)
+      scene.constants[id] = parameters.material.elastic_constants(properties_of(id), dim);
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_nodes_and_families()
+  {
+    const Timings::Scope scope(timings, "neighbours");
+    scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
+    scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
+    if (parameters.loads.displacement_treatment == "mirror")
+      {
+        scene.mirror = std::make_shared<MirrorLayer<dim>>(
+          *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
+        scene.held = HeldNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
+      }
+    else
+      {
+        const bool at_faces = parameters.loads.displacement_treatment == "face value";
+        scene.mirror        = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
+        scene.held          = HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                                    scene.loads,
+                                    scene.condition_boundaries,
+                                    scene.nodes->size());
+      }
+    scene.families = std::make_shared<const Families<dim>>(scene.mirror->nodes());
+    if (scene.families->statistics().min == 0)
+      throw InputError("a node has no neighbour within its horizon")
+        .parameter("Nodes/Horizon factor")
+        .hint("enlarge the factor, or give the body more than one cell");
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_gradient()
+  {
+    const Timings::Scope part(timings, "setup: face gradient");
+    scene.gradient = std::make_shared<const FaceGradient<dim>>(
+      *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
+        return scene.constants.at(id).shear_modulus();
+      });
+    scene.face_values =
+      by_nodes() ?
+        std::make_shared<FaceValues<dim>>() :
+        std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads, scene.condition_boundaries);
+  }
+
+  template <int dim>
+  void Simulation<dim>::weigh_bonds()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const auto           moduli = [&](const dealii::types::material_id id) {
+      const ElasticConstants &constants = scene.constants.at(id);
+      return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
+    };
+    if (parameters.model.is_consistent() || needs_gradient(parameters.field_names()))
+      make_gradient();
+    if (parameters.model.is_consistent())
+      {
+        const Timings::Scope part(timings, "setup: weights");
+        scene.consistent = std::make_shared<ConsistentOperator<dim>>(
+          scene.families,
+          scene.gradient,
+          scene.face_values,
+          create_consistent<dim>(parameters.model, parameters.nodes.horizon_factor),
+          moduli);
+        scene.bonds = scene.consistent;
+      }
+    else
+      {
+        const Timings::Scope part(timings, "setup: weights");
+        const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
+        scene.bonds                = create_bond_operator<dim>(scene.families, *model, moduli);
+      }
+    scene.system =
+      std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
+  }
+
+  template <int dim>
+  void Simulation<dim>::find_free_motions()
+  {
+    // Which motions the held components allow: those of nodes, or of faces where images or face values hold.
+    const auto         box = dealii::GridTools::compute_bounding_box(scene.mesh->triangulation);
+    dealii::Point<dim> lower, upper;
+    for (int d = 0; d < dim; ++d)
+      {
+        lower[d] = dealii::Utilities::MPI::min(box.lower_bound(d), communicator);
+        upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), communicator);
+      }
+    RigidBodyMotions<dim> motions(lower + 0.5 * (upper - lower), lower.distance(upper));
+    const HeldNodes<dim>  on_faces =
+      !by_nodes() ?
+         HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
+         scene.held;
+    for (const auto &entry : on_faces.entries())
+      motions.hold(!by_nodes() ? entry.point : scene.nodes->position[entry.node], entry.component);
+
+    const auto free = motions.free_motions(communicator);
+    if (free.empty())
+      return;
+    if (parameters.loads.rigid_body_motions == "error")
+      throw InputError("the conditions leave a rigid-body motion free: " +
+                       RigidBodyMotions<dim>::describe(free))
+        .parameter("Boundary conditions")
+        .hint("hold these motions, or, where the loads balance, set Boundary conditions/Rigid body "
+              "motions = remove");
+    NodalVector      layout;
+    dealii::IndexSet owned(dim * scene.nodes->n_global);
+    owned.add_range(dim * scene.nodes->first_global, dim * (scene.nodes->first_global + scene.nodes->size()));
+    layout.reinit(owned, communicator);
+    scene.null_space = NullSpace<dim>(*scene.nodes, motions, free, layout);
+  }
+
+  template <int dim>
+  void Simulation<dim>::prepare_comparisons()
+  {
+    if (parameters.comparison.reference || parameters.loads.displacement_treatment == "reference")
+      {
+        screen << "reference   Q2 finite elements, " << parameters.comparison.reference_refinements
+               << " refinement(s)" << std::endl;
+        scene.comparisons["reference"] =
+          solve_reference(scene, parameters.comparison.reference_refinements, 1., timings);
+      }
+  }
+
+  template <int dim>
+  void Simulation<dim>::set_up_solver()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const Timings::Scope part(timings, "setup: preconditioner");
+    const auto           choice = choose_preconditioner(parameters.solver,
+                                              measure_solve(*scene.mesh,
+                                                            *scene.nodes,
+                                                            *scene.system,
+                                                            scene.families->n_bonds(),
+                                                            parameters.model.is_consistent()));
+    if (choice.preconditioner == "auxiliary")
+      {
+        if (choice.auxiliary_mesh == "parent")
+          scene.auxiliary_fem =
+            std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads, create_parent_mesh(*scene.mesh));
+        else
+          scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
+        scene.auxiliary_fem->assemble(scene.constants, 0.);
+      }
+    scene.linear_solver = create_linear_solver(
+      parameters.solver, choice, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+    summary["solver"]["preconditioner"] = choice.preconditioner;
+    summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id) const; \
+  template bool                      Simulation<dim>::by_nodes() const;                                      \
+  template void                      Simulation<dim>::make_mesh();                                           \
+  template void                      Simulation<dim>::make_nodes_and_families();                             \
+  template void                      Simulation<dim>::make_gradient();                                       \
+  template void                      Simulation<dim>::weigh_bonds();                                         \
+  template void                      Simulation<dim>::find_free_motions();                                   \
+  template void                      Simulation<dim>::prepare_comparisons();                                 \
+  template void                      Simulation<dim>::set_up_solver();
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal
