@@ -167,7 +167,8 @@ namespace perideal
     const ParameterFile file =
       ParameterFile::parse("subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
                            "subsection Boundary conditions\n"
-                           " subsection ANY NAME\n end\nend\n",
+                           " subsection ANY NAME\n end\nend\n"
+                           "subsection Point loads\n subsection ANY NAME\n end\nend\n",
                            "");
     SceneParameters          scene;
     dealii::ParameterHandler prm;

@@ -89,6 +89,7 @@ namespace perideal
     else
       compute_nodal_forces(
         *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
+    scene.point_forces.add(scene.loads, time, external_force);
     if (parameters.loads.displacement_treatment == "reference")
       {
         // The reference belongs to the final loads; linear scenes scale.

@@ -73,6 +73,9 @@ namespace perideal
       throw InputError("a node has no neighbour within its horizon")
         .parameter("Nodes/Horizon factor")
         .hint("enlarge the factor, or give the body more than one cell");
+    if (!scene.loads.point_loads.empty())
+      scene.point_forces =
+        PointForces<dim>(*scene.mesh, CellGraph<dim>(*scene.mesh, *scene.nodes), scene.loads);
   }
 
   template <int dim>

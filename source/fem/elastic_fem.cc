@@ -5,6 +5,7 @@
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fem/polynomial_multigrid.h>
 #include <perideal/mesh/create_mesh.h>
+#include <perideal/mesh/point_location.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
@@ -102,6 +103,23 @@ namespace perideal
   }
 
   template <int dim>
+  void ElasticFem<dim>::locate_point_loads()
+  {
+    point_forces.clear();
+    if (loads.point_loads.empty())
+      return;
+    std::vector<dealii::Point<dim>> points;
+    for (const PointLoad<dim> &load : loads.point_loads)
+      points.push_back(load.position);
+    std::vector<double> distances;
+    const auto places = PointLocation<dim>(unknowns.get_triangulation(), geometry).share(points, distances);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (const auto &at : places[p])
+        point_forces.insert({at.place.cell->active_cell_index(),
+                             {at.place.unit_point, loads.point_loads[p].force_at(time) / at.n_sharing}});
+  }
+
+  template <int dim>
   void ElasticFem<dim>::cell_system(const Cell                 &cell,
                                     CellIntegrals<dim>         &integrals,
                                     dealii::FullMatrix<double> &matrix,
@@ -132,6 +150,11 @@ namespace perideal
                 },
                 forces);
           }
+    const auto acting = point_forces.equal_range(cell->active_cell_index());
+    for (auto entry = acting.first; entry != acting.second; ++entry)
+      for (unsigned int k = 0; k < forces.size(); ++k)
+        forces[k] += element.shape_value(k, entry->second.unit_point) *
+                     entry->second.force[element.system_to_component_index(k).first];
   }
 
   template <int dim>
@@ -144,6 +167,7 @@ namespace perideal
     unknowns.distribute_dofs(element);
     make_constraints();
     make_sparsity();
+    locate_point_loads();
 
     CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
     const unsigned int                           n = element.n_dofs_per_cell();

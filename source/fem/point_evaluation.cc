@@ -2,7 +2,6 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/fem/point_evaluation.h>
 
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/rtree.h>
 
@@ -15,21 +14,13 @@ namespace perideal
 {
   namespace bgi = boost::geometry::index;
 
-  namespace
-  {
-    /// Distances from the unit cell: a point of the cell, up to rounding; and
-    /// the farthest that a polynomial is continued beyond its cell.
-    constexpr double inside = 1e-8, still_near = 0.1;
-  } // namespace
-
   template <int dim>
   PointEvaluation<dim>::PointEvaluation(const dealii::Mapping<dim>    &mapping,
                                         const dealii::DoFHandler<dim> &unknowns,
                                         const NodalVector             &displacement)
-    : mapping(mapping)
-    , unknowns(unknowns)
+    : unknowns(unknowns)
     , displacement(displacement)
-    , cache(unknowns.get_triangulation(), mapping)
+    , location(unknowns.get_triangulation(), mapping)
   {
   }
 
@@ -37,47 +28,27 @@ namespace perideal
   typename PointEvaluation<dim>::Sample PointEvaluation<dim>::sample(const dealii::Point<dim> &point,
                                                                      const Candidates candidates) const
   {
-    using Cell       = typename dealii::Triangulation<dim>::active_cell_iterator;
-    const auto &tree = cache.get_locally_owned_cell_bounding_boxes_rtree();
-    std::vector<std::pair<dealii::BoundingBox<dim>, Cell>> found;
-    if (candidates == Candidates::around_point)
-      tree.query(bgi::intersects(point), std::back_inserter(found));
-    else
-      tree.query(bgi::nearest(point, 2 * dealii::GeometryInfo<dim>::vertices_per_cell),
-                 std::back_inserter(found));
-
+    typename PointLocation<dim>::Place best;
+    best.distance = std::numeric_limits<double>::max();
+    location.visit(point, candidates, [&](const typename PointLocation<dim>::Place &place) {
+      if (place.distance < best.distance)
+        best = place;
+      return place.distance > 0.;
+    });
     Sample result = {};
-    result[0]     = std::numeric_limits<double>::max();
-    Cell               best_cell;
-    dealii::Point<dim> best_unit_point;
-    for (const auto &candidate : found)
-      {
-        dealii::Point<dim> unit_point;
-        mapping.transform_points_real_to_unit_cell(candidate.second,
-                                                   dealii::ArrayView<const dealii::Point<dim>>(&point, 1),
-                                                   dealii::ArrayView<dealii::Point<dim>>(&unit_point, 1));
-        const double distance = dealii::GeometryInfo<dim>::distance_to_unit_cell(unit_point);
-        if (distance < result[0])
-          {
-            result[0]       = distance;
-            best_cell       = candidate.second;
-            best_unit_point = unit_point;
-          }
-        if (distance == 0.)
-          break;
-      }
-    if (result[0] > still_near)
+    result[0]     = best.distance;
+    if (best.distance > PointLocation<dim>::still_near)
       return result;
 
     const typename dealii::DoFHandler<dim>::active_cell_iterator cell(
-      &unknowns.get_triangulation(), best_cell->level(), best_cell->index(), &unknowns);
+      &unknowns.get_triangulation(), best.cell->level(), best.cell->index(), &unknowns);
     const dealii::FiniteElement<dim>            &element = unknowns.get_fe();
     const dealii::FiniteElement<dim>            &scalar  = element.base_element(0);
     std::vector<dealii::types::global_dof_index> indices(element.n_dofs_per_cell());
     cell->get_dof_indices(indices);
     for (unsigned int a = 0; a < scalar.n_dofs_per_cell(); ++a)
       {
-        const double weight = scalar.shape_value(a, best_unit_point);
+        const double weight = scalar.shape_value(a, best.unit_point);
         for (unsigned int d = 0; d < dim; ++d)
           result[1 + d] += weight * displacement(indices[element.component_to_system_index(d, a)]);
       }
@@ -121,7 +92,7 @@ namespace perideal
       sample[0] = std::numeric_limits<double>::max();
 
     std::map<unsigned int, std::vector<std::size_t>> points_for_rank;
-    const auto                                      &ranks = cache.get_covering_rtree(2);
+    const auto                                      &ranks = location.cache().get_covering_rtree(2);
     for (std::size_t i = 0; i < points.size(); ++i)
       {
         std::set<unsigned int> asked;
@@ -136,7 +107,7 @@ namespace perideal
     // boundary, or outside by rounding, is in none. Anybody may be nearest.
     points_for_rank.clear();
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (best[i][0] > inside)
+      if (best[i][0] > PointLocation<dim>::inside)
         for (unsigned int rank = 0; rank < dealii::Utilities::MPI::n_mpi_processes(communicator); ++rank)
           points_for_rank[rank].push_back(i);
     ask(points, points_for_rank, Candidates::nearest, best);
@@ -144,7 +115,7 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> result(points.size());
     std::ostringstream                  outside;
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (best[i][0] > still_near)
+      if (best[i][0] > PointLocation<dim>::still_near)
         outside << " (" << points[i] << ")";
       else
         for (unsigned int d = 0; d < dim; ++d)

@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perideal
 {
@@ -23,6 +24,19 @@ namespace perideal
       std::array<SpaceTimeFunction<dim>, dim> result;
       for (int d = 0; d < dim; ++d)
         result[d] = SpaceTimeFunction<dim>(expressions[d], prefix + axes[d]);
+      return result;
+    }
+
+    /// Value of those components that are prescribed, zero for the others.
+    template <int dim>
+    dealii::Tensor<1, dim> value_of(const std::array<SpaceTimeFunction<dim>, dim> &components,
+                                    const dealii::Point<dim>                      &point,
+                                    const double                                   time)
+    {
+      dealii::Tensor<1, dim> result;
+      for (int d = 0; d < dim; ++d)
+        if (components[d].is_present())
+          result[d] = components[d].value(point, time);
       return result;
     }
 
@@ -60,6 +74,55 @@ namespace perideal
         throw InputError("a pressure acts on all components, some of which are held")
           .parameter(section + "Pressure")
           .hint("give tractions for the free components instead");
+      return result;
+    }
+
+    template <int dim>
+    dealii::Point<dim> make_point(const std::string &text, const std::string &parameter)
+    {
+      const auto complain = [&]() {
+        return InputError("not a point of the scene")
+          .parameter(parameter)
+          .given(text)
+          .allowed(std::to_string(dim) + " coordinates [m], separated by commas");
+      };
+      const std::vector<std::string> coordinates = dealii::Utilities::split_string_list(text, ',');
+      if (coordinates.size() != dim)
+        throw complain();
+      dealii::Point<dim> result;
+      for (int d = 0; d < dim; ++d)
+        {
+          try
+            {
+              result[d] = dealii::Utilities::string_to_double(coordinates[d]);
+            }
+          catch (const dealii::ExceptionBase &)
+            {
+              throw complain();
+            }
+          if (!std::isfinite(result[d]))
+            throw complain();
+        }
+      return result;
+    }
+
+    template <int dim>
+    PointLoad<dim> make_point_load(const PointLoadText &text)
+    {
+      const std::string section = "Point loads/" + text.name + "/";
+      PointLoad<dim>    result;
+      result.name     = text.name;
+      result.position = make_point<dim>(text.point, section + "Point");
+      result.force    = make_components<dim>(text.force, section + "F_");
+      if (!any_present(result.force))
+        throw InputError("the load has no force")
+          .parameter("Point loads/" + text.name)
+          .allowed("at least one of F_x, F_y, F_z");
+      for (int d = 0; d < dim; ++d)
+        if (result.force[d].is_present() && !std::isfinite(result.force[d].value(result.position, 1.)))
+          throw InputError("this formula is not a finite number at its point and t = 1")
+            .parameter(section + "F_" + axes[d])
+            .given(text.force[d]);
       return result;
     }
   } // namespace
@@ -109,6 +172,28 @@ namespace perideal
       }
     prm.leave_subsection();
 
+    prm.enter_subsection("Point loads");
+    for (const std::string &name : file.subsections("Point loads"))
+      {
+        point_loads.emplace_back();
+        point_loads.back().name = name;
+      }
+    for (PointLoadText &load : point_loads)
+      {
+        prm.enter_subsection(load.name);
+        prm.add_parameter("Point",
+                          load.point,
+                          "Where the force acts: coordinates [m], separated by commas, in the body or on its "
+                          "boundary (up to a tenth of a cell outside, where that is curved)");
+        for (unsigned int d = 0; d < 3; ++d)
+          prm.add_parameter("F_" + axes[d],
+                            load.force[d],
+                            "Force along " + axes[d] +
+                              " [N], a formula in x, y, z, t; in 2-D on the whole thickness; empty: none");
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
     prm.enter_subsection("Body force");
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter("b_" + axes[d],
@@ -131,11 +216,19 @@ namespace perideal
   }
 
   template <int dim>
+  dealii::Tensor<1, dim> PointLoad<dim>::force_at(const double time) const
+  {
+    return value_of<dim>(force, position, time);
+  }
+
+  template <int dim>
   Loads<dim>::Loads(const LoadParameters &parameters)
     : body_force(make_components<dim>(parameters.body_force, "Body force/b_"))
   {
     for (const BoundaryConditionText &text : parameters.conditions)
       conditions.push_back(make_condition<dim>(text));
+    for (const PointLoadText &text : parameters.point_loads)
+      point_loads.push_back(make_point_load<dim>(text));
   }
 
   template <int dim>
@@ -144,10 +237,7 @@ namespace perideal
                                               const dealii::Tensor<1, dim> &normal,
                                               const double                  time)
   {
-    dealii::Tensor<1, dim> result;
-    for (int d = 0; d < dim; ++d)
-      if (condition.traction[d].is_present())
-        result[d] = condition.traction[d].value(point, time);
+    dealii::Tensor<1, dim> result = value_of<dim>(condition.traction, point, time);
     if (condition.pressure.is_present())
       result -= condition.pressure.value(point, time) * normal;
     return result;
@@ -156,15 +246,13 @@ namespace perideal
   template <int dim>
   dealii::Tensor<1, dim> Loads<dim>::body_force_at(const dealii::Point<dim> &point, const double time) const
   {
-    dealii::Tensor<1, dim> result;
-    for (int d = 0; d < dim; ++d)
-      if (body_force[d].is_present())
-        result[d] = body_force[d].value(point, time);
-    return result;
+    return value_of<dim>(body_force, point, time);
   }
 
   template struct BoundaryCondition<2>;
   template struct BoundaryCondition<3>;
+  template struct PointLoad<2>;
+  template struct PointLoad<3>;
   template struct Loads<2>;
   template struct Loads<3>;
 } // namespace perideal

@@ -41,7 +41,9 @@ def listed_scene(program, folder):
     listing, n_groups = re.subn(r"\n  subsection PHYSICAL GROUP\n.*?\n  end\n", "\n", listing, flags=re.DOTALL)
     (folder / "listed.prm").write_text(listing, encoding="utf-8")
     condition = "Boundary conditions/ANY NAME/"
-    values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0"]
+    load = "Point loads/ANY NAME/"
+    values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
+              load + "Point=1, 0.5", load + "F_x=1"]
     return n_groups, [argument for value in values for argument in ("--set", value)]
 
 

@@ -6,6 +6,7 @@
 #include <perideal/boundary/face_values.h>
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
+#include <perideal/boundary/point_forces.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
@@ -48,6 +49,7 @@ namespace perideal
     std::shared_ptr<const FaceGradient<dim>> gradient;
     std::shared_ptr<FaceValues<dim>>         face_values;
     std::shared_ptr<MirrorLayer<dim>>        mirror;
+    PointForces<dim>                         point_forces;
     std::shared_ptr<const Families<dim>>     families;
 
     std::shared_ptr<BondOperator<dim>> bonds;

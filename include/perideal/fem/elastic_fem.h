@@ -116,6 +116,7 @@ namespace perideal
 
     void make_constraints();
     void make_sparsity();
+    void locate_point_loads();
 
     /// Stiffness matrix [N/m] and nodal forces [N] of one cell, nothing held.
     void cell_system(const Cell                 &cell,
@@ -128,6 +129,15 @@ namespace perideal
     /// Conditions with a traction or pressure, by the boundary they act on.
     std::multimap<dealii::types::boundary_id, const BoundaryCondition<dim> *> tractions;
     bool                                                                      has_body_force;
+
+    /// The part of a point load [N] that acts at a point of a cell.
+    struct PointForce
+    {
+      dealii::Point<dim>     unit_point;
+      dealii::Tensor<1, dim> force;
+    };
+    /// By active_cell_index().
+    std::multimap<unsigned int, PointForce> point_forces;
 
     /// The cells, where they are not those of the mesh itself.
     std::shared_ptr<const dealii::Triangulation<dim>> own_cells;

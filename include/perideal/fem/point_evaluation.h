@@ -3,10 +3,10 @@
 #define perideal_fem_point_evaluation_h
 
 #include <perideal/base/types.h>
+#include <perideal/mesh/point_location.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/mapping.h>
-#include <deal.II/grid/grid_tools_cache.h>
 
 #include <array>
 #include <map>
@@ -41,12 +41,7 @@ namespace perideal
     /// Distance of the point from the unit cell, then the components of the value.
     using Sample = std::array<double, dim + 1>;
 
-    /// Which cells of this rank may hold a point.
-    enum class Candidates
-    {
-      around_point,
-      nearest
-    };
+    using Candidates = typename PointLocation<dim>::Candidates;
 
     /// Sends points to ranks, and keeps of their answers the best for each point.
     void ask(const std::vector<dealii::Point<dim>>                  &points,
@@ -57,10 +52,9 @@ namespace perideal
     /// The best sample that the cells of this rank have.
     Sample sample(const dealii::Point<dim> &point, const Candidates candidates) const;
 
-    const dealii::Mapping<dim>    &mapping;
     const dealii::DoFHandler<dim> &unknowns;
     const NodalVector             &displacement;
-    dealii::GridTools::Cache<dim>  cache;
+    PointLocation<dim>             location;
   };
 } // namespace perideal
 

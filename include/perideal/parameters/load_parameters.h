@@ -29,7 +29,18 @@ namespace perideal
     std::string pressure;
   };
 
-  /// Sections "Boundary conditions" and "Body force", as text.
+  /// Expressions of one subsection of "Point loads"; an empty one is no force.
+  struct PointLoadText
+  {
+    /// Name of the subsection, "Point loads/<name>".
+    std::string name;
+    /// Coordinates [m], separated by commas.
+    std::string point;
+    /// Force by component [N].
+    std::array<std::string, 3> force;
+  };
+
+  /// Sections "Boundary conditions", "Point loads" and "Body force", as text.
   struct LoadParameters
   {
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
@@ -38,6 +49,7 @@ namespace perideal
     /// What to do about rigid-body motions that no condition holds: error | remove.
     std::string                        rigid_body_motions = "error";
     std::vector<BoundaryConditionText> conditions;
+    std::vector<PointLoadText>         point_loads;
     /// Force per volume by component [N/m^3].
     std::array<std::string, 3> body_force;
 
@@ -58,16 +70,29 @@ namespace perideal
     bool prescribes_traction() const;
   };
 
+  /// A force at a point, ready to be evaluated.
+  template <int dim>
+  struct PointLoad
+  {
+    std::string                             name;
+    dealii::Point<dim>                      position;
+    std::array<SpaceTimeFunction<dim>, dim> force;
+
+    /// Force [N]; in 2-D on the whole thickness.
+    dealii::Tensor<1, dim> force_at(const double time) const;
+  };
+
   /// All loads of a scene, ready to be evaluated.
   template <int dim>
   struct Loads
   {
     std::vector<BoundaryCondition<dim>>     conditions;
+    std::vector<PointLoad<dim>>             point_loads;
     std::array<SpaceTimeFunction<dim>, dim> body_force;
 
     /// @throws InputError on a wrong expression, a z component in 2-D, a
     /// condition that prescribes nothing or both displacement and traction of
-    /// one component.
+    /// one component, a point load without a point or a force.
     explicit Loads(const LoadParameters &parameters);
     Loads() = default;
 
