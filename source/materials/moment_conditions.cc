@@ -5,6 +5,9 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
 namespace perideal
 {
@@ -53,6 +56,30 @@ namespace perideal
                                              {2, 2, 0, 1}};
     };
 
+    /// Products of two monomials are the same for many pairs of them, in 3-D and order 4
+    /// 45 different ones for 120 pairs. Of each pair (k, l <= k) the first with the same product.
+    template <int dim, int order>
+    struct EqualProducts
+    {
+      static constexpr int n = MomentConditions<dim, order>::n_conditions;
+
+      EqualProducts()
+      {
+        std::map<std::array<int, dim>, std::pair<int, int>> first_with;
+        for (int k = 0; k < n; ++k)
+          for (int l = 0; l <= k; ++l)
+            {
+              std::array<int, dim> exponents = {};
+              for (const int monomial : {k, l})
+                for (const int direction : Monomials<dim, order>::factors[monomial])
+                  ++exponents[direction];
+              first[k][l] = first_with.insert({exponents, {k, l}}).first->second;
+            }
+      }
+
+      std::pair<int, int> first[n][n];
+    };
+
     /// r of a monomial: how often each direction occurs decides (eqs. 41, 61).
     double target_of(const int (&factors)[2])
     {
@@ -90,9 +117,29 @@ namespace perideal
         column /= horizon_square;
         target[k] = target_of(factors) / horizon_square;
       }
-    gram.noalias() = monomials.transpose() * (monomials.array().colwise() * volume).matrix();
-    scaling        = gram.diagonal().array().max(1e-300).sqrt().inverse();
-    gram           = scaling.asDiagonal() * gram * scaling.asDiagonal();
+    gram    = sum_of_products(volume);
+    scaling = gram.diagonal().array().max(1e-300).sqrt().inverse();
+    gram    = scaling.asDiagonal() * gram * scaling.asDiagonal();
+  }
+
+  template <int dim, int order>
+  typename MomentConditions<dim, order>::Matrix
+  MomentConditions<dim, order>::sum_of_products(const Eigen::ArrayXd &volumes) const
+  {
+    static const EqualProducts<dim, order> equal;
+    Matrix                                 result;
+    Eigen::VectorXd                        weighted(volumes.size());
+    for (int k = 0; k < n_conditions; ++k)
+      {
+        weighted = monomials.col(k).array() * volumes;
+        for (int l = 0; l <= k; ++l)
+          {
+            const auto first = equal.first[k][l];
+            result(k, l) = result(l, k) = first == std::make_pair(k, l) ? weighted.dot(monomials.col(l)) :
+                                                                          result(first.first, first.second);
+          }
+      }
+    return result;
   }
 
   template <int dim, int order>
@@ -165,9 +212,7 @@ namespace perideal
          ++iteration)
       {
         const Eigen::ArrayXd active  = (now.weights > 0).select(volume, 0.);
-        Matrix               hessian = scaling.asDiagonal() *
-                         (monomials.transpose() * (monomials.array().colwise() * active).matrix()) *
-                         scaling.asDiagonal();
+        Matrix               hessian = scaling.asDiagonal() * sum_of_products(active) * scaling.asDiagonal();
         hessian.diagonal().array() += 1e-14;
         const Vector step  = Eigen::LDLT<Matrix>(hessian).solve(-now.gradient);
         const double slope = now.gradient.dot(step);

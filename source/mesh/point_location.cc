@@ -37,10 +37,10 @@ namespace perideal
       {
         Place place;
         place.cell = candidate.second;
-        mapping.transform_points_real_to_unit_cell(place.cell,
-                                                   dealii::ArrayView<const dealii::Point<dim>>(&point, 1),
-                                                   dealii::ArrayView<dealii::Point<dim>>(&place.unit_point,
-                                                                                         1));
+        mapping.transform_points_real_to_unit_cell(
+          place.cell,
+          dealii::ArrayView<const dealii::Point<dim>>(&point, 1),
+          dealii::ArrayView<dealii::Point<dim>>(&place.unit_point, 1));
         place.distance = dealii::GeometryInfo<dim>::distance_to_unit_cell(place.unit_point);
         if (!visit(place))
           break;

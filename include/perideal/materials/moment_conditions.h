@@ -53,6 +53,9 @@ namespace perideal
 
     Vector miss(const Eigen::Ref<const Eigen::ArrayXd> &weights) const;
     Vector solve(const Vector &right_hand_side) const;
+    /// sum_j m m^T V_j over the members, for any volumes.
+    Matrix sum_of_products(const Eigen::ArrayXd &volumes) const;
+
     /// Monomials over horizon^2 by member (row), volumes of the members.
     Eigen::Matrix<double, Eigen::Dynamic, n_conditions> monomials;
     Eigen::ArrayXd                                      volume;

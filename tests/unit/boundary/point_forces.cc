@@ -53,9 +53,10 @@ namespace
             points[2][d] = 0.21 + 0.08 * d;
           }
         // A vertex that cells of several ranks may share.
-        const auto middle = *std::min_element(vertices.begin(), vertices.end(), [&](const auto &a, const auto &b) {
-          return a.distance(points[2]) < b.distance(points[2]);
-        });
+        const auto middle =
+          *std::min_element(vertices.begin(), vertices.end(), [&](const auto &a, const auto &b) {
+            return a.distance(points[2]) < b.distance(points[2]);
+          });
         points.push_back(dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, middle, 0));
         for (const dealii::Point<dim> &point : points)
           {
@@ -90,7 +91,7 @@ TEST(PointForces, AreAsSymmetricAsTheMesh)
 {
   const auto        mesh = test::make_box<2>({4, 4}, {1., 1.}, 0.);
   const Nodes<2>    nodes(*mesh, NodeParameters{3.01});
-  const NodalVector f = forces_of<2>(*mesh, nodes, {0.5, 1.});
+  const NodalVector f       = forces_of<2>(*mesh, nodes, {0.5, 1.});
   double            largest = 0, left = 0, right = 0;
   for (LocalIndex i = 0; i < nodes.size(); ++i)
     {
