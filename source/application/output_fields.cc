@@ -91,6 +91,21 @@ namespace perideal
       static const Registry<AddField<dim>> list(
         "Output/Fields",
         {{"displacement", [](Scene s, Output o) { o.add_vector("displacement", s.displacement); }},
+         {"velocity",
+          [](Scene s, Output o) {
+            if (!s.velocity.empty())
+              o.add_vector("velocity", s.velocity);
+          }},
+         {"damage",
+          [](Scene s, Output o) {
+            if (s.force)
+              o.add_scalar("damage", s.force->damage());
+          }},
+         {"precracks",
+          [](Scene s, Output o) {
+            if (s.force)
+              o.add_scalar("precracks", s.force->cut_share());
+          }},
          {"fem", [](Scene s, Output o) { add_comparison(s, "fem", o); }},
          {"reference", [](Scene s, Output o) { add_comparison(s, "reference", o); }},
          {"exact", [](Scene s, Output o) { add_comparison(s, "exact", o); }},

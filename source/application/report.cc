@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
@@ -56,6 +57,18 @@ namespace perideal
     return result;
   }
 
+  bool can_break(const SceneParameters &parameters)
+  {
+    const auto breaks = [](const MaterialProperties &m) {
+      return m.fracture_energy > 0 || m.critical_stretch > 0;
+    };
+    return parameters.solver.is_dynamic() &&
+           (breaks(parameters.material.body) ||
+            std::any_of(parameters.material.groups.begin(),
+                        parameters.material.groups.end(),
+                        [&](const auto &group) { return breaks(group.second); }));
+  }
+
   template <int dim>
   Json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene)
   {
@@ -63,14 +76,22 @@ namespace perideal
     const auto bonds = scene.families->n_bonds();
     const auto nodes = scene.nodes->n_global;
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(scene.nodes->communicator) == 1;
-    result["bond state (nothing can break)"]         = bonds;
-    result["mass and velocity (statics)"]            = 2 * dim * nodes;
-    result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
+    if (!can_break(parameters))
+      result["bond state (nothing can break)"] = bonds;
+    if (parameters.solver.is_dynamic())
+      result["matrix, preconditioner (explicit)"] = 1;
+    else
+      {
+        result["mass and velocity (statics)"]            = 2 * dim * nodes;
+        result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
+      }
     if (alone)
       result["halo exchange (one rank)"] = 1;
     if (parameters.loads.displacement_treatment != "mirror")
       result["fictitious nodes (no mirror)"] = 1;
-    if (parameters.model.model == "ordinary" || parameters.model.form == "paper")
+    if (parameters.model.model == "bond based")
+      result["sums over families, their halo exchange"] = bonds;
+    else if (parameters.model.model == "ordinary" || parameters.model.form == "paper")
       result["second sum over families"] = bonds;
     return result;
   }
@@ -104,9 +125,13 @@ namespace perideal
     if (scene.linear_solver)
       out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
     out << "not needed ";
-    const Json skipped = list_skipped(parameters, scene);
+    const Json  skipped   = list_skipped(parameters, scene);
+    const char *separator = " ";
     for (const auto &item : skipped.items())
-      out << (item.key() == "bond state (nothing can break)" ? " " : "; ") << item.key();
+      {
+        out << separator << item.key();
+        separator = "; ";
+      }
     out << '\n';
     return out.str();
   }

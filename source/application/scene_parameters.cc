@@ -41,6 +41,18 @@ namespace perideal
     prm.leave_subsection();
   }
 
+  void InitialParameters::declare(dealii::ParameterHandler &prm)
+  {
+    const char *axes[] = {"x", "y", "z"};
+    prm.enter_subsection("Initial conditions");
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("v_") + axes[d],
+                        velocity[d],
+                        std::string("Velocity at t = 0 along ") + axes[d] +
+                          " [m/s], a formula in x, y, z, in dynamics; empty: at rest");
+    prm.leave_subsection();
+  }
+
   void SceneParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     using namespace dealii::Patterns;
@@ -54,6 +66,8 @@ namespace perideal
     material.declare(prm, file);
     solver.declare(prm);
     loads.declare(prm, file);
+    initial.declare(prm);
+    precracks.declare(prm, file);
     comparison.declare(prm);
     prm.enter_subsection("Output");
     prm.add_parameter(
@@ -68,6 +82,9 @@ namespace perideal
       "Boundaries (physical names or ids) whose stresses, recovered at each face, are written to "
       "stress_NAME.csv, with the extremes in summary.json",
       List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter("Frames", frames, "Field files that dynamics leave, at equal times", Integer(1));
+    prm.add_parameter(
+      "History steps", history_steps, "Steps between two rows of the history of dynamics", Integer(1));
     prm.add_parameter("Nominal stress",
                       nominal_stress,
                       "Stress [Pa] that the largest principal stress of each of these boundaries is divided "
@@ -102,7 +119,13 @@ namespace perideal
 
   void SceneParameters::resolve()
   {
+    if (model.form == "automatic")
+      model.form = solver.is_dynamic() ? "energy" : "consistent";
     model.resolve(dimension);
+    if (solver.is_dynamic())
+      check_dynamics();
+    else
+      check_statics();
     const bool   consistent = model.is_consistent();
     std::string &treatment  = loads.displacement_treatment;
     if (treatment == "automatic")
@@ -126,6 +149,45 @@ namespace perideal
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)
         .allowed("automatic | face value | layer | reference for the consistent form");
+  }
+
+  void SceneParameters::check_dynamics() const
+  {
+    if (model.is_consistent())
+      throw InputError("the consistent form is one of statics")
+        .parameter("Material/Form")
+        .given(model.form)
+        .allowed("automatic | energy | paper in dynamics");
+    const std::string &treatment = loads.displacement_treatment;
+    if (treatment != "automatic" && treatment != "layer")
+      throw InputError("dynamics hold the nodes at a boundary")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer in dynamics");
+    if (comparison.fem || comparison.reference)
+      throw InputError("the finite elements that dynamics would be compared with are static")
+        .parameter(comparison.fem ? "Comparison/FEM" : "Comparison/Reference")
+        .hint("set it to false");
+    if (!boundary_stress.empty())
+      throw InputError("boundary stresses are those of statics").parameter("Output/Boundary stress");
+  }
+
+  void SceneParameters::check_statics() const
+  {
+    const auto complain = [](const std::string &parameter) {
+      throw InputError("this belongs to dynamics").parameter(parameter).hint("set Solver/Name = dynamics");
+    };
+    const char *axes[] = {"x", "y", "z"};
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        for (const auto &condition : loads.conditions)
+          if (!condition.velocity[d].empty())
+            complain("Boundary conditions/" + condition.name + "/v_" + axes[d]);
+        if (!initial.velocity[d].empty())
+          complain(std::string("Initial conditions/v_") + axes[d]);
+      }
+    if (!precracks.cracks.empty())
+      complain("Precracks/" + precracks.cracks.front().name);
   }
 
   std::vector<std::string> SceneParameters::field_names() const
@@ -168,7 +230,8 @@ namespace perideal
       ParameterFile::parse("subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
                            "subsection Boundary conditions\n"
                            " subsection ANY NAME\n end\nend\n"
-                           "subsection Point loads\n subsection ANY NAME\n end\nend\n",
+                           "subsection Point loads\n subsection ANY NAME\n end\nend\n"
+                           "subsection Precracks\n subsection ANY NAME\n end\nend\n",
                            "");
     SceneParameters          scene;
     dealii::ParameterHandler prm;

@@ -38,6 +38,11 @@ namespace perideal
     create_output_directory(parameters.output_directory, communicator);
     make_mesh();
     make_nodes_and_families();
+    if (parameters.solver.is_dynamic())
+      {
+        run_dynamics();
+        return;
+      }
     find_free_motions();
     prepare_comparisons();
     weigh_bonds();
@@ -244,7 +249,9 @@ namespace perideal
         {
           // What there is may show what went wrong.
           field_output->add_vector("displacement", scene.displacement);
-          field_output->write(parameters.solver.load_steps + 1, 2.);
+          field_output->write(parameters.solver.is_dynamic() ? parameters.frames + 1 :
+                                                               parameters.solver.load_steps + 1,
+                              parameters.solver.is_dynamic() ? parameters.solver.end_time : 2.);
         }
       history->finish();
     }
@@ -252,18 +259,19 @@ namespace perideal
     result["versions"]   = versions();
     result["parameters"] = context.parameters;
     result.update(describe_discretisation(parameters, scene));
-    summary["solver"]["name"] = scene.linear_solver->name();
     result.update(summary);
     result["skipped"]        = list_skipped(parameters, scene);
     const auto seconds       = timings.seconds();
     result["seconds"]        = seconds;
     result["memory_bytes"]   = peak_memory_bytes(communicator);
     result["operator_bytes"] = dealii::Utilities::MPI::sum(
-      scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
+      scene.families->memory_consumption() +
+        (scene.force ? scene.force->memory_consumption() : scene.bonds->memory_consumption()),
+      communicator);
     result["ranks"] = dealii::Utilities::MPI::n_mpi_processes(communicator);
     write_summary(parameters.output_directory + "/summary.json", result, communicator);
 
-    if (status == "done")
+    if (status == "done" && !parameters.solver.is_dynamic())
       screen << "solved      " << summary["solver"]["iterations"].back() << " iterations, strain energy "
              << short_number(summary["energy"]["strain"].template get<double>()) << " J\n"
              << describe_boundary_stress(summary["boundary_stress"]);

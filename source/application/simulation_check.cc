@@ -30,30 +30,32 @@ namespace perideal
            << " s is the largest stable one of explicit dynamics\n";
     for (const auto id : scene.mesh->material_ids)
       {
-        const MaterialProperties &material        = properties_of(id);
-        double                    largest_horizon = 0;
+        double largest_horizon = 0;
         for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
           if (scene.nodes->material[i] == id)
             largest_horizon = std::max(largest_horizon, scene.nodes->horizon[i]);
-        largest_horizon = dealii::Utilities::MPI::max(largest_horizon, communicator);
+        largest_horizon      = dealii::Utilities::MPI::max(largest_horizon, communicator);
+        const double stretch = critical_stretch(id, largest_horizon);
         screen << "material    " << scene.mesh->material_name(id) << ": ";
-        if (material.fracture_energy > 0)
-          screen << "critical stretch "
-                 << short_number(ordinary_critical_stretch(
-                      scene.constants.at(id), material.fracture_energy, largest_horizon))
-                 << " at the largest horizon, " << short_number(largest_horizon) << " m\n";
+        if (std::isfinite(stretch))
+          screen << "critical stretch " << short_number(stretch) << " at the largest horizon, "
+                 << short_number(largest_horizon) << " m\n";
         else
           screen << "no fracture energy given, unbreakable\n";
       }
-    if (!scene.gradient)
-      make_gradient();
-    const auto       &deficient  = scene.gradient->deficient();
-    const GlobalIndex thin_cells = dealii::Utilities::MPI::sum<GlobalIndex>(
-      std::count(deficient.begin(), deficient.end(), true), communicator);
-    screen << "suits       " << suitable_form(parameters, thin_cells) << '\n';
+    if (!parameters.solver.is_dynamic())
+      {
+        if (!scene.gradient)
+          make_gradient();
+        const auto       &deficient  = scene.gradient->deficient();
+        const GlobalIndex thin_cells = dealii::Utilities::MPI::sum<GlobalIndex>(
+          std::count(deficient.begin(), deficient.end(), true), communicator);
+        screen << "suits       " << suitable_form(parameters, thin_cells) << '\n';
+      }
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << '\n';
-    find_free_motions();
+    if (!parameters.solver.is_dynamic())
+      find_free_motions();
     screen << "nothing was solved" << std::endl;
   }
 

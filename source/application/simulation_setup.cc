@@ -97,7 +97,7 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const auto           moduli = [&](const dealii::types::material_id id) {
-      const ElasticConstants &constants = scene.constants.at(id);
+      const ElasticConstants constants = parameters.model.constants_of_model(scene.constants.at(id));
       return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
     };
     if (parameters.model.is_consistent() || needs_gradient(parameters.field_names()))
@@ -117,7 +117,8 @@ namespace perideal
       {
         const Timings::Scope part(timings, "setup: weights");
         const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
-        scene.bonds                = create_bond_operator<dim>(scene.families, *model, moduli);
+        scene.weights              = perideal::weigh_bonds<dim>(scene.families, *model, moduli);
+        scene.bonds                = create_bond_operator<dim>(scene.weights);
       }
     scene.system =
       std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
@@ -192,6 +193,7 @@ namespace perideal
       }
     scene.linear_solver = create_linear_solver(
       parameters.solver, choice, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+    summary["solver"]["name"]           = scene.linear_solver->name();
     summary["solver"]["preconditioner"] = choice.preconditioner;
     summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
   }

@@ -100,8 +100,7 @@ namespace perideal
                     .given("also by Boundary conditions/" + other)
                     .hint("name every boundary in one condition for each component");
                 };
-                if (condition.displacement[d].is_present() &&
-                    !holder.insert({{id, d}, condition.name}).second)
+                if (condition.holds(d) && !holder.insert({{id, d}, condition.name}).second)
                   complain("the displacement", holder.at({id, d}));
                 if (condition.traction[d].is_present() && !puller.insert({{id, d}, condition.name}).second)
                   complain("the traction", puller.at({id, d}));
@@ -144,6 +143,7 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           {
             check(loads.conditions[k].displacement[d], std::string("u_") + axes[d]);
+            check(loads.conditions[k].velocity[d], std::string("v_") + axes[d]);
             check(loads.conditions[k].traction[d], std::string("t_") + axes[d]);
           }
         check(loads.conditions[k].pressure, "Pressure");

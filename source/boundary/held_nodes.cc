@@ -20,7 +20,7 @@ namespace perideal
       for (unsigned int k = 0; k < n_conditions; ++k)
         if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
           for (unsigned int d = 0; d < dim; ++d)
-            if (loads.conditions[k].displacement[d].is_present())
+            if (loads.conditions[k].holds(d))
               {
                 list.push_back({face.node, d, k, face.centre, 1.});
                 held[dim * face.node + d] = 1;
@@ -42,6 +42,29 @@ namespace perideal
       displacement.local_element(dim * entry.node + entry.component) +=
         entry.share *
         loads.conditions[entry.condition].displacement[entry.component].value(entry.point, time);
+  }
+
+  template <int dim>
+  void HeldNodes<dim>::set_velocities(const Loads<dim>  &loads,
+                                      const double       time,
+                                      const double       time_step,
+                                      const NodalVector &displacement,
+                                      NodalVector       &velocity) const
+  {
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (held[i])
+        velocity.local_element(i) = 0;
+    for (const Entry &entry : list)
+      {
+        const BoundaryCondition<dim> &condition = loads.conditions[entry.condition];
+        const std::size_t             i         = dim * entry.node + entry.component;
+        const auto                   &position  = condition.displacement[entry.component];
+        velocity.local_element(i) +=
+          entry.share *
+          (position.is_present() ?
+             (position.value(entry.point, time + time_step) - displacement.local_element(i)) / time_step :
+             condition.velocity[entry.component].value(entry.point, time + 0.5 * time_step));
+      }
   }
 
   template <int dim>

@@ -121,7 +121,10 @@ namespace perideal
     // t = kappa wh |xi| theta + 2 mu wd (e - theta |xi|/dim)      (70)
     // theta always has the corrected weight; the force has the spherical ones
     // in a fallback family.
+    // W = kappa theta^2/2 + mu sum_j wd (e - theta |xi|/dim)^2 V_j in these terms:
+    // V W = theta sum_j force_weight_j eps_j + sum_j stiffness_j eps_j^2/2 + c theta^2.
     const double mu = family.shear_modulus, kappa = family.bulk_modulus;
+    double       s       = 0;
     const auto  &force_h = coefficients.report.fallback ? spherical : wh;
     const auto  &force_d = coefficients.report.fallback ? spherical_deviatoric : wd;
     for (LocalIndex j = 0; j < family.size; ++j)
@@ -130,8 +133,10 @@ namespace perideal
         coefficients.sum[0][j]          = wh[j] * family.volume[j];
         coefficients.force_weight[0][j] = volumes * (kappa * force_h[j] - 2. * mu / dim * force_d[j]);
         coefficients.stiffness[j]       = 2. * mu * volumes * force_d[j] / family.length_square[j];
+        s += force_d[j] * family.length_square[j] * family.volume[j];
       }
-    coefficients.map = {{1., 0., 0.}};
+    coefficients.map    = {{1., 0., 0.}};
+    coefficients.energy = family.node_volume * (mu * s / (dim * dim) - 0.5 * kappa);
   }
 
   template <int dim>

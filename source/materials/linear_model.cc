@@ -37,6 +37,7 @@ namespace perideal
           force_weight[a].resize(n);
       }
     stiffness.resize(n);
+    energy = 0;
     report = {};
   }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/registry.h>
+#include <perideal/materials/bond_based.h>
 #include <perideal/materials/extended_ordinary.h>
 #include <perideal/materials/influence_function.h>
 #include <perideal/materials/models.h>
+#include <perideal/materials/ordinary.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <perideal/materials/ordinary.h>
 
 namespace perideal
 {
@@ -22,7 +23,11 @@ namespace perideal
     {
       static const Registry<Factory<dim>> list(
         "Material/Model",
-        {{"ordinary",
+        {{"bond based",
+          [](const ModelParameters &, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+            return std::make_unique<BondBased<dim>>(thickness);
+          }},
+         {"ordinary",
           [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
             return std::make_unique<Ordinary<dim>>(InfluenceFunction(p.influence_function), thickness);
           }},
@@ -49,16 +54,18 @@ namespace perideal
     prm.enter_subsection("Material");
     prm.add_parameter("Model",
                       model,
-                      "What a bond does: ordinary: state-based peridynamics without corrections; extended "
+                      "What a bond does: bond based: springs, whose Poisson's ratio is 1/4 (plane stress "
+                      "1/3); ordinary: state-based peridynamics without corrections; extended "
                       "ordinary: with multipliers that make families of any shape exact for uniform strain",
                       Selection(selection(models<2>().names())));
     prm.add_parameter(
       "Form",
       form,
-      "Force of the extended ordinary model: consistent: strain from the faces of the mesh, bonds "
+      "Force of the extended ordinary model: automatic: consistent in statics, energy in dynamics; "
+      "consistent: strain from the faces of the mesh, bonds "
       "stabilise, symmetric, the most accurate in statics; energy: the gradient of the strain energy "
       "over bonds, symmetric; paper: as published, not the gradient of an energy, non-symmetric",
-      Selection("consistent|" + selection(ExtendedOrdinary<2>::form_names())));
+      Selection("automatic|consistent|" + selection(ExtendedOrdinary<2>::form_names())));
     prm.add_parameter("Stabilisation",
                       stabilisation,
                       "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
@@ -89,6 +96,14 @@ namespace perideal
         .parameter("Material/Stabilisation")
         .given(stabilisation)
         .allowed("automatic, or a number > 0; without it the consistent form has modes without energy");
+  }
+
+  ElasticConstants ModelParameters::constants_of_model(const ElasticConstants &constants) const
+  {
+    ElasticConstants result = constants;
+    if (model == "bond based")
+      result.poisson_ratio = BondBased<2>::poisson_ratio(constants.assumption);
+    return result;
   }
 
   template <int dim>

@@ -9,17 +9,26 @@ namespace perideal
                        LinearModel<dim>                                              &model,
                        const std::function<Moduli(const dealii::types::material_id)> &moduli)
   {
-    const FamilyShape shape = model.shape();
-    if (shape.n_sums == 1 && !shape.own_force_weights)
-      return std::make_unique<FamilyOperator<dim, 1, false>>(families, model, moduli);
-    if (shape.n_sums == 1)
-      return std::make_unique<FamilyOperator<dim, 1, true>>(families, model, moduli);
-    AssertThrow(shape.n_sums == 2 && !shape.own_force_weights, dealii::ExcNotImplemented());
-    return std::make_unique<FamilyOperator<dim, 2, false>>(families, model, moduli);
+    return create_bond_operator<dim>(weigh_bonds(families, model, moduli));
+  }
+
+  template <int dim>
+  std::unique_ptr<BondOperator<dim>>
+  create_bond_operator(const std::shared_ptr<const BondWeights<dim>> &weights)
+  {
+    return visit_family_shape(weights->shape,
+                              [&](const auto n_sums, const auto own) -> std::unique_ptr<BondOperator<dim>> {
+                                return std::make_unique<FamilyOperator<dim, n_sums, own>>(
+                                  std::static_pointer_cast<const FamilyWeights<dim, n_sums, own>>(weights));
+                              });
   }
 
   template class BondOperator<2>;
   template class BondOperator<3>;
+  template std::unique_ptr<BondOperator<2>>
+  create_bond_operator(const std::shared_ptr<const BondWeights<2>> &);
+  template std::unique_ptr<BondOperator<3>>
+  create_bond_operator(const std::shared_ptr<const BondWeights<3>> &);
   template std::unique_ptr<BondOperator<2>>
   create_bond_operator(const std::shared_ptr<const Families<2>> &,
                        LinearModel<2> &,

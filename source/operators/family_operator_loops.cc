@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-// The hot loops of FamilyOperator: two passes over all bonds.
+// The hot loops of FamilyOperator: two passes over all weights->bonds.
 
 namespace perideal
 {
@@ -29,14 +29,14 @@ namespace perideal
   {
     for (unsigned int a = 0; a < n_sums; ++a)
       std::fill(sums[a].begin(), sums[a].end(), 0.);
-    const LocalIndex *neighbour = bonds.neighbour.data();
+    const LocalIndex *neighbour = weights->bonds.neighbour.data();
     const NodeRecord *x = positions.data(), *u = displacements.data();
 
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+    for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
       {
-        const Lanes xi = lanes(x[i]), ui = lanes(u[i]);
-        Lanes       own[n_sums] = {};
-        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+        const Lanes               xi = lanes(x[i]), ui = lanes(u[i]);
+        std::array<Lanes, n_sums> own = {};
+        for (BondIndex k = weights->bonds.row[i]; k < weights->bonds.row[i + 1]; k += BondList::n_lanes)
           {
             const LocalIndex *j = neighbour + k;
             Lanes             extension;
@@ -48,8 +48,8 @@ namespace perideal
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
-                load(near, sum_weight[a].near.data() + k);
-                load(far, sum_weight[a].far.data() + k);
+                load(near, weights->sum_weight[a].near.data() + k);
+                load(far, weights->sum_weight[a].far.data() + k);
                 own[a] += near * extension;
                 far *= extension;
                 double *sum = sums[a].data();
@@ -63,17 +63,6 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  std::array<double, n_sums>
-  FamilyOperator<dim, n_sums, own_force_weights>::states(const LocalIndex                  i,
-                                                         const std::array<double, n_sums> &s) const
-  {
-    if constexpr (n_sums == 1)
-      return {{map[i][0] * s[0]}};
-    else
-      return {{map[i][0] * s[0] + map[i][1] * s[1], map[i][1] * s[0] + map[i][2] * s[1]}};
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyOperator<dim, n_sums, own_force_weights>::turn_sums_into_states() const
   {
     const bool has_ghosts = families->n_local() > families->n_owned();
@@ -82,7 +71,7 @@ namespace perideal
         std::array<double, n_sums> s;
         for (unsigned int a = 0; a < n_sums; ++a)
           s[a] = sums[a][i];
-        s = states(i, s);
+        s = weights->states(i, s);
         for (unsigned int a = 0; a < n_sums; ++a)
           {
             state[a][i] = s[a];
@@ -107,17 +96,17 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyOperator<dim, n_sums, own_force_weights>::sum_forces() const
   {
-    const LocalIndex *neighbour = bonds.neighbour.data();
+    const LocalIndex *neighbour = weights->bonds.neighbour.data();
     const NodeRecord *x = positions.data(), *u = displacements.data();
-    NodeRecord       *f       = forces.data();
-    const Weights    &weights = force_weights();
+    NodeRecord       *f            = forces.data();
+    const auto       &pull_weights = weights->force_weights();
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+    for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
       {
         const Lanes xi = lanes(x[i]), ui = lanes(u[i]);
         Lanes       own = {};
-        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+        for (BondIndex k = weights->bonds.row[i]; k < weights->bonds.row[i + 1]; k += BondList::n_lanes)
           {
             const LocalIndex *j = neighbour + k;
             // x has zeros behind the coordinates, which keeps the states out of the sum.
@@ -130,13 +119,13 @@ namespace perideal
                         bond[1] * (uj[1] - ui),
                         bond[2] * (uj[2] - ui),
                         bond[3] * (uj[3] - ui));
-            load(magnitude, stiffness.data() + k);
+            load(magnitude, weights->stiffness.data() + k);
             magnitude *= extension;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
-                load(near, weights[a].near.data() + k);
-                load(far, weights[a].far.data() + k);
+                load(near, pull_weights[a].near.data() + k);
+                load(far, pull_weights[a].far.data() + k);
                 const double *s         = state[a].data();
                 const Lanes   far_state = dim + a < 4 ? Lanes{uj[0][(dim + a) % 4],
                                                             uj[1][(dim + a) % 4],

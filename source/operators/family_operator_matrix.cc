@@ -15,33 +15,33 @@ namespace perideal
     std::vector<dealii::Tensor<2, dim>> result(n_owned);
     using Rows = std::array<dealii::Tensor<1, dim>, n_sums>;
     std::vector<Rows> own_sum(n_owned), own_force(n_owned);
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+    for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
+      for (BondIndex k = weights->bonds.row[i]; k < weights->bonds.row[i + 1]; ++k)
         {
-          const LocalIndex j = bonds.neighbour[k];
+          const LocalIndex j = weights->bonds.neighbour[k];
           if (j == i)
             continue;
           const auto                 xi = bond_vector(i, j);
           std::array<double, n_sums> near_sum, far_sum;
           for (unsigned int a = 0; a < n_sums; ++a)
             {
-              near_sum[a] = sum_weight[a].near[k];
-              far_sum[a]  = sum_weight[a].far[k];
+              near_sum[a] = weights->sum_weight[a].near[k];
+              far_sum[a]  = weights->sum_weight[a].far[k];
               own_sum[i][a] += near_sum[a] * xi;
-              own_force[i][a] += force_weights()[a].near[k] * xi;
+              own_force[i][a] += weights->force_weights()[a].near[k] * xi;
               if (j < n_owned)
                 {
                   own_sum[j][a] -= far_sum[a] * xi;
-                  own_force[j][a] -= force_weights()[a].far[k] * xi;
+                  own_force[j][a] -= weights->force_weights()[a].far[k] * xi;
                 }
             }
           // The neighbour's family moves with this node, and the other way round.
-          double     of_i = stiffness[k], of_j = stiffness[k];
-          const auto far_states = states(j, far_sum), near_states = states(i, near_sum);
+          double     of_i = weights->stiffness[k], of_j = weights->stiffness[k];
+          const auto far_states = weights->states(j, far_sum), near_states = weights->states(i, near_sum);
           for (unsigned int a = 0; a < n_sums; ++a)
             {
-              of_i += force_weights()[a].far[k] * far_states[a];
-              of_j += force_weights()[a].near[k] * near_states[a];
+              of_i += weights->force_weights()[a].far[k] * far_states[a];
+              of_j += weights->force_weights()[a].near[k] * near_states[a];
             }
           const auto square = outer_product(xi, xi);
           result[i] += of_i * square;
@@ -53,7 +53,7 @@ namespace perideal
         {
           std::array<double, n_sums> unit = {};
           unit[a]                         = 1;
-          const auto column               = states(i, unit);
+          const auto column               = weights->states(i, unit);
           for (unsigned int b = 0; b < n_sums; ++b)
             result[i] += column[b] * outer_product(own_force[i][b], own_sum[i][a]);
         }
@@ -64,7 +64,7 @@ namespace perideal
   void FamilyOperator<dim, n_sums, own_force_weights>::assemble(
     const typename BondOperator<dim>::AddBlock &add) const
   {
-    BondCursor                   cursor(bonds);
+    BondCursor                   cursor(weights->bonds);
     std::vector<BondCursor::End> ends;
     std::vector<GlobalIndex>     unknowns;
     std::vector<double>          values;
@@ -94,8 +94,8 @@ namespace perideal
             for (unsigned int a = 0; a < n_sums; ++a)
               for (int d = 0; d < dim; ++d)
                 {
-                  const auto  &s = sum_weight[a];
-                  const auto  &p = force_weights()[a];
+                  const auto  &s = weights->sum_weight[a];
+                  const auto  &p = weights->force_weights()[a];
                   const double g = (end.is_near ? s.near : s.far)[end.slot] * xi[d];
                   const double f = (end.is_near ? p.near : p.far)[end.slot] * xi[d];
                   sum_row[a][at + d] += g;
@@ -107,7 +107,7 @@ namespace perideal
             for (int r = 0; r < dim; ++r)
               for (int c = 0; c < dim; ++c)
                 {
-                  const double entry = stiffness[end.slot] * xi[r] * xi[c];
+                  const double entry = weights->stiffness[end.slot] * xi[r] * xi[c];
                   values[r * n + c] += entry;
                   values[r * n + at + c] -= entry;
                 }
@@ -116,7 +116,7 @@ namespace perideal
           {
             std::array<double, n_sums> unit = {};
             unit[a]                         = 1;
-            const auto column               = states(i, unit);
+            const auto column               = weights->states(i, unit);
             for (unsigned int b = 0; b < n_sums; ++b)
               if (column[b] != 0)
                 for (std::size_t r = 0; r < n; ++r)
@@ -131,19 +131,20 @@ namespace perideal
   void FamilyOperator<dim, n_sums, own_force_weights>::visit_bond_forces(
     const typename BondOperator<dim>::VisitBond &visit) const
   {
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+    for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
+      for (BondIndex k = weights->bonds.row[i]; k < weights->bonds.row[i + 1]; ++k)
         {
-          const LocalIndex j = bonds.neighbour[k];
+          const LocalIndex j = weights->bonds.neighbour[k];
           if (j == i)
             continue;
           const auto xi        = bond_vector(i, j);
           double     extension = 0, magnitude = 0;
           for (int d = 0; d < dim; ++d)
             extension += xi[d] * (displacements[j].value[d] - displacements[i].value[d]);
-          magnitude = stiffness[k] * extension;
+          magnitude = weights->stiffness[k] * extension;
           for (unsigned int a = 0; a < n_sums; ++a)
-            magnitude += force_weights()[a].near[k] * state[a][i] + force_weights()[a].far[k] * state[a][j];
+            magnitude += weights->force_weights()[a].near[k] * state[a][i] +
+                         weights->force_weights()[a].far[k] * state[a][j];
           visit(i, j, magnitude * xi);
         }
   }

@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -58,51 +59,29 @@ namespace perideal
           .parameter(section + "Boundary")
           .allowed("Gmsh physical names or ids, separated by commas");
       result.displacement = make_components<dim>(text.displacement, section + "u_");
+      result.velocity     = make_components<dim>(text.velocity, section + "v_");
       result.traction     = make_components<dim>(text.traction, section + "t_");
       result.pressure     = SpaceTimeFunction<dim>(text.pressure, section + "Pressure");
 
       if (!result.prescribes_displacement() && !result.prescribes_traction())
         throw InputError("the condition prescribes nothing")
           .parameter("Boundary conditions/" + text.name)
-          .allowed("at least one of u_x, u_y, u_z, t_x, t_y, t_z, Pressure");
+          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, Pressure");
       for (int d = 0; d < dim; ++d)
-        if (result.displacement[d].is_present() && result.traction[d].is_present())
-          throw InputError("displacement and traction of one component are both prescribed")
-            .parameter(section + "t_" + axes[d])
-            .hint("remove u_" + axes[d] + " or t_" + axes[d]);
+        {
+          if (result.displacement[d].is_present() && result.velocity[d].is_present())
+            throw InputError("displacement and velocity of one component are both prescribed")
+              .parameter(section + "v_" + axes[d])
+              .hint("remove u_" + axes[d] + " or v_" + axes[d]);
+          if (result.holds(d) && result.traction[d].is_present())
+            throw InputError("displacement and traction of one component are both prescribed")
+              .parameter(section + "t_" + axes[d])
+              .hint("remove u_" + axes[d] + " (v_" + axes[d] + ") or t_" + axes[d]);
+        }
       if (result.pressure.is_present() && result.prescribes_displacement())
         throw InputError("a pressure acts on all components, some of which are held")
           .parameter(section + "Pressure")
           .hint("give tractions for the free components instead");
-      return result;
-    }
-
-    template <int dim>
-    dealii::Point<dim> make_point(const std::string &text, const std::string &parameter)
-    {
-      const auto complain = [&]() {
-        return InputError("not a point of the scene")
-          .parameter(parameter)
-          .given(text)
-          .allowed(std::to_string(dim) + " coordinates [m], separated by commas");
-      };
-      const std::vector<std::string> coordinates = dealii::Utilities::split_string_list(text, ',');
-      if (coordinates.size() != dim)
-        throw complain();
-      dealii::Point<dim> result;
-      for (int d = 0; d < dim; ++d)
-        {
-          try
-            {
-              result[d] = dealii::Utilities::string_to_double(coordinates[d]);
-            }
-          catch (const dealii::ExceptionBase &)
-            {
-              throw complain();
-            }
-          if (!std::isfinite(result[d]))
-            throw complain();
-        }
       return result;
     }
 
@@ -112,7 +91,7 @@ namespace perideal
       const std::string section = "Point loads/" + text.name + "/";
       PointLoad<dim>    result;
       result.name     = text.name;
-      result.position = make_point<dim>(text.point, section + "Point");
+      result.position = read_point<dim>(text.point, section + "Point");
       result.force    = make_components<dim>(text.force, section + "F_");
       if (!any_present(result.force))
         throw InputError("the load has no force")
@@ -162,6 +141,11 @@ namespace perideal
                             "Prescribed displacement along " + axes[d] +
                               " [m], a formula in x, y, z, t; empty: free");
         for (unsigned int d = 0; d < 3; ++d)
+          prm.add_parameter("v_" + axes[d],
+                            condition.velocity[d],
+                            "Prescribed velocity along " + axes[d] +
+                              " [m/s], a formula in x, y, z, t, in dynamics; empty: free");
+        for (unsigned int d = 0; d < 3; ++d)
           prm.add_parameter("t_" + axes[d],
                             condition.traction[d],
                             "Traction along " + axes[d] + " [Pa], a formula in x, y, z, t; empty: none");
@@ -206,7 +190,7 @@ namespace perideal
   template <int dim>
   bool BoundaryCondition<dim>::prescribes_displacement() const
   {
-    return any_present(displacement);
+    return any_present(displacement) || any_present(velocity);
   }
 
   template <int dim>
@@ -219,6 +203,21 @@ namespace perideal
   dealii::Tensor<1, dim> PointLoad<dim>::force_at(const double time) const
   {
     return value_of<dim>(force, position, time);
+  }
+
+  template <int dim>
+  bool Loads<dim>::forces_depend_on_time() const
+  {
+    const auto changes = [](const auto &functions) {
+      return std::any_of(
+        functions.begin(), functions.end(), [](const auto &f) { return f.depends_on_time(); });
+    };
+    return changes(body_force) ||
+           std::any_of(
+             point_loads.begin(), point_loads.end(), [&](const auto &load) { return changes(load.force); }) ||
+           std::any_of(conditions.begin(), conditions.end(), [&](const auto &condition) {
+             return changes(condition.traction) || condition.pressure.depends_on_time();
+           });
   }
 
   template <int dim>

@@ -32,7 +32,10 @@ namespace perideal
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "
-              "--check turns it into a critical stretch");
+              "each bond breaks at the critical stretch that makes it so");
+      declare("Critical stretch",
+              properties.critical_stretch,
+              "Stretch at which bonds break >= 0 [-]; 0: from the fracture energy");
     }
 
     void check_properties(const MaterialProperties &properties,
@@ -52,6 +55,14 @@ namespace perideal
         throw InputError("the density must be positive")
           .parameter(section + "/Density")
           .allowed("a number > 0");
+      if (!(properties.critical_stretch >= 0))
+        throw InputError("the critical stretch must not be negative")
+          .parameter(section + "/Critical stretch")
+          .allowed("a number >= 0");
+      if (properties.critical_stretch > 0 && properties.fracture_energy > 0)
+        throw InputError("fracture energy and critical stretch are both given")
+          .parameter(section + "/Critical stretch")
+          .hint("remove one of them: each follows from the other");
       if (!(properties.fracture_energy >= 0))
         throw InputError("the fracture energy must not be negative")
           .parameter(section + "/Fracture energy")

@@ -5,6 +5,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <iostream>
+#include <regex>
 
 namespace perideal
 {
@@ -34,6 +35,7 @@ namespace perideal
   {
     if (expression.empty())
       return;
+    names_time                  = std::regex_search(expression, std::regex("\\bt\\b"));
     const std::string variables = dim == 2 ? "x,y,t" : "x,y,z,t";
     // deal.II reports what muParser found on the error stream; there it would
     // stand beside our own message.

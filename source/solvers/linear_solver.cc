@@ -11,6 +11,8 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
 
+#include <cmath>
+
 namespace perideal
 {
   void SolverParameters::declare(dealii::ParameterHandler &prm)
@@ -18,7 +20,12 @@ namespace perideal
     using namespace dealii::Patterns;
     prm.enter_subsection("Solver");
     prm.add_parameter(
-      "Name", name, "What is solved: static: equilibrium under the final loads", Selection("static"));
+      "Name",
+      name,
+      "What is solved: static: equilibrium under the final loads; dynamics: motion from t = 0 to End time, "
+      "explicit, geometrically nonlinear, in which bonds break where a fracture energy or critical "
+      "stretch is given",
+      Selection("static|dynamics"));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Residual over the first residual at which a linear solve ends, 0 < tolerance < 1 [-]",
@@ -50,11 +57,38 @@ namespace perideal
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
                       Integer(1));
+    prm.add_parameter("End time", end_time, "When dynamics end, > 0 [s]", Double());
+    prm.add_parameter("Time step",
+                      time_step,
+                      "Step of dynamics [s]; 0: the largest stable one times Time step safety",
+                      Double());
+    prm.add_parameter("Time step safety",
+                      time_step_safety,
+                      "Part of the largest stable step that is taken, 0 < safety <= 1 [-]",
+                      Double());
+    prm.add_parameter(
+      "Integrator",
+      integrator,
+      "velocity verlet: initial velocities are those at t = 0; symplectic euler: those half a "
+      "step before; central differences both",
+      Selection("velocity verlet|symplectic euler"));
+    prm.add_parameter("Damping", damping, "Viscous force over mass and velocity, >= 0 [1/s]", Double());
     prm.leave_subsection();
   }
 
   void SolverParameters::check() const
   {
+    const auto check_range = [](const bool fits, const char *parameter, const char *allowed) {
+      if (!fits)
+        throw InputError("the value is out of range")
+          .parameter(std::string("Solver/") + parameter)
+          .allowed(allowed);
+    };
+    check_range(
+      !is_dynamic() || (end_time > 0 && std::isfinite(end_time)), "End time", "a time > 0 in dynamics");
+    check_range(time_step >= 0 && std::isfinite(time_step), "Time step", "a time > 0, or 0: chosen");
+    check_range(time_step_safety > 0 && time_step_safety <= 1, "Time step safety", "0 < safety <= 1");
+    check_range(damping >= 0 && std::isfinite(damping), "Damping", "a number >= 0");
     if (!(tolerance > 0 && tolerance < 1))
       throw InputError("the tolerance is out of range")
         .parameter("Solver/Tolerance")

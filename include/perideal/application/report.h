@@ -20,6 +20,9 @@ namespace perideal
   nlohmann::ordered_json describe_discretisation(const SceneParameters &parameters,
                                                  const SceneState<dim> &scene);
 
+  /// Whether bonds of the scene may break.
+  bool can_break(const SceneParameters &parameters);
+
   /// What the scene does not need, by name, with the amount saved.
   template <int dim>
   nlohmann::ordered_json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene);

@@ -4,6 +4,7 @@
 
 #include <perideal/materials/models.h>
 #include <perideal/mesh/mesh_parameters.h>
+#include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
@@ -36,6 +37,15 @@ namespace perideal
     void declare(dealii::ParameterHandler &prm);
   };
 
+  /// Section "Initial conditions".
+  struct InitialParameters
+  {
+    /// Velocity of the body at t = 0 by component [m/s], formulas in x, y, z; empty: at rest.
+    std::array<std::string, 3> velocity;
+
+    void declare(dealii::ParameterHandler &prm);
+  };
+
   /// Everything a `.prm` file can say.
   struct SceneParameters
   {
@@ -45,13 +55,17 @@ namespace perideal
     /// Boundaries whose stresses are written.
     std::vector<std::string> boundary_stress;
     /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
-    double               nominal_stress = 0.;
+    double nominal_stress = 0.;
+    /// Field files of dynamics, and steps between rows of their history.
+    unsigned int         frames = 10, history_steps = 10;
     MeshParameters       mesh;
     NodeParameters       nodes;
     ModelParameters      model;
     MaterialParameters   material;
     SolverParameters     solver;
     LoadParameters       loads;
+    InitialParameters    initial;
+    PrecrackParameters   precracks;
     ComparisonParameters comparison;
 
     /// Declares all parameters, reads the values and checks their ranges.
@@ -64,6 +78,10 @@ namespace perideal
     /// Replaces "automatic" by what it means for this scene.
     /// @throws InputError on choices that do not go together.
     void resolve();
+
+    /// @throws InputError on what does not go with dynamics, or with statics.
+    void check_dynamics() const;
+    void check_statics() const;
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;

@@ -11,6 +11,7 @@
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/operators/bond_force.h>
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/null_space.h>
@@ -52,6 +53,8 @@ namespace perideal
     PointForces<dim>                         point_forces;
     std::shared_ptr<const Families<dim>>     families;
 
+    /// What the model made of the bonds; the consistent form has no such.
+    std::shared_ptr<BondWeights<dim>>  weights;
     std::shared_ptr<BondOperator<dim>> bonds;
     /// The same object as bonds, where the form is consistent.
     std::shared_ptr<ConsistentOperator<dim>>  consistent;
@@ -60,8 +63,11 @@ namespace perideal
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
     std::unique_ptr<LinearSolver<dim>>        linear_solver;
 
-    /// Displacement of the nodes after the last step, rigid-body motions removed.
-    NodalField<dim> displacement;
+    /// Dynamics alone have it.
+    std::unique_ptr<BondForce<dim>> force;
+
+    /// Displacement of the nodes after the last step, rigid-body motions removed; in dynamics their velocity.
+    NodalField<dim> displacement, velocity;
     /// Solutions it is held against, by name: "fem", "reference", "exact".
     std::map<std::string, NodalField<dim>> comparisons;
   };

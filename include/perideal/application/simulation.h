@@ -7,6 +7,7 @@
 #include <perideal/base/timing.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
+#include <perideal/solvers/explicit_dynamics.h>
 
 #include <deal.II/base/conditional_ostream.h>
 
@@ -63,6 +64,15 @@ namespace perideal
     void write_fields(const unsigned int number, const double time);
     void compare_at_end(const double time);
     void finish(const std::string &status);
+
+    void   run_dynamics();
+    double choose_time_step();
+    void   make_cracks_and_limits();
+    void   run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
+    void   record_dynamics(const ExplicitDynamics<dim> &dynamics);
+    void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
+    double critical_stretch(const dealii::types::material_id id, const double horizon) const;
 
     /// Whether prescribed displacements hold nodes, and not images or faces.
     bool by_nodes() const;

@@ -2,6 +2,10 @@
 #ifndef perideal_base_lanes_h
 #define perideal_base_lanes_h
 
+#ifdef __AVX__
+#  include <immintrin.h>
+#endif
+
 /**
  * Four doubles at once for the bond loops, on compiler vectors: they become
  * AVX registers where the target has them and pairs of SSE registers elsewhere.
@@ -42,6 +46,25 @@ namespace perideal
     const Lanes ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const Lanes cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
     result = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  }
+
+  PERIDEAL_INLINE Lanes square_root(const Lanes &a)
+  {
+#ifdef __AVX__
+    return _mm256_sqrt_pd(a);
+#else
+    return Lanes{__builtin_sqrt(a[0]), __builtin_sqrt(a[1]), __builtin_sqrt(a[2]), __builtin_sqrt(a[3])};
+#endif
+  }
+
+  /// Whether any of the numbers is below zero.
+  PERIDEAL_INLINE bool any_negative(const Lanes &a)
+  {
+#ifdef __AVX__
+    return _mm256_movemask_pd(a) != 0;
+#else
+    return a[0] < 0 || a[1] < 0 || a[2] < 0 || a[3] < 0;
+#endif
   }
 
   PERIDEAL_INLINE double sum_of_all(const Lanes &a)

@@ -43,6 +43,14 @@ namespace perideal
     /// Writes the boundary's values at the face centres into held components.
     void set_boundary_values(const Loads<dim> &loads, const double time, NodalVector &displacement) const;
 
+    /// Writes the velocities with which held components get from @p displacement at a time to where
+    /// they are prescribed to be a step later, or that are prescribed themselves [m/s].
+    void set_velocities(const Loads<dim>  &loads,
+                        const double       time,
+                        const double       time_step,
+                        const NodalVector &displacement,
+                        NodalVector       &velocity) const;
+
     /// Writes the held components of given nodal displacements.
     void set_nodal_values(const std::vector<dealii::Tensor<1, dim>> &values, NodalVector &displacement) const;
 

@@ -3,6 +3,7 @@
 #define perideal_materials_consistent_h
 
 #include <perideal/materials/influence_function.h>
+#include <perideal/materials/linear_model.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -10,12 +11,6 @@
 
 namespace perideal
 {
-  /// Bulk and shear modulus [Pa] by material id.
-  struct Moduli
-  {
-    double bulk_modulus = 0, shear_modulus = 0;
-  };
-
   /**
    * The consistent form of extended ordinary state-based peridynamics: the
    * energy of XOSB (22) with the strain of the family taken from the face

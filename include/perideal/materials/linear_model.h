@@ -10,6 +10,12 @@
 
 namespace perideal
 {
+  /// Bulk and shear modulus [Pa].
+  struct Moduli
+  {
+    double bulk_modulus = 0, shear_modulus = 0;
+  };
+
   /**
    * One family as a material sees it. Arrays run over its members.
    */
@@ -74,7 +80,10 @@ namespace perideal
     std::vector<double>                stiffness;
     /// Entries (0,0), (0,1) = (1,0), (1,1) of the map.
     std::array<double, 3> map = {};
-    FamilyReport          report;
+    /// c of the strain energy, [J]: half the sum of stiffness_j eps_j^2 and, without own
+    /// force weights, s.A/2; with them s_0 sum_j force_weight_j eps_j + c s_0^2.
+    double       energy = 0;
+    FamilyReport report;
 
     void resize(const LocalIndex n, const FamilyShape &shape);
   };

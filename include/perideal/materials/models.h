@@ -4,6 +4,7 @@
 
 #include <perideal/materials/consistent.h>
 #include <perideal/materials/linear_model.h>
+#include <perideal/parameters/elastic_constants.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -16,7 +17,7 @@ namespace perideal
   struct ModelParameters
   {
     std::string model              = "extended ordinary";
-    std::string form               = "consistent";
+    std::string form               = "automatic";
     std::string influence_function = "automatic";
     std::string stabilisation      = "automatic";
 
@@ -29,6 +30,10 @@ namespace perideal
     /// The consistent form of the extended ordinary model, which needs the face
     /// gradient of the mesh and is no LinearModel.
     bool is_consistent() const { return model == "extended ordinary" && form == "consistent"; }
+
+    /// The constants that the model has where it cannot have those asked for: a
+    /// bond-based body keeps Young's modulus, Poisson's ratio is its own.
+    ElasticConstants constants_of_model(const ElasticConstants &constants) const;
   };
 
   /// The consistent form, of resolved parameters.

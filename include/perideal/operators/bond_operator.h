@@ -3,9 +3,7 @@
 #define perideal_operators_bond_operator_h
 
 #include <perideal/base/types.h>
-#include <perideal/materials/consistent.h>
-#include <perideal/materials/linear_model.h>
-#include <perideal/neighbourhood/families.h>
+#include <perideal/operators/family_weights.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -15,12 +13,6 @@
 
 namespace perideal
 {
-  /// Number of families of all ranks by what became of their weights.
-  struct FamilyCounts
-  {
-    GlobalIndex fallback = 0, singular = 0, indefinite = 0;
-  };
-
   /**
    * The linear internal force of a bond model, K u, over all nodes of this rank
    * (fictitious ones included), matrix-free. Boundary conditions are none of
@@ -83,6 +75,11 @@ namespace perideal
   protected:
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
   };
+
+  /// The linear operator of weighed bonds.
+  template <int dim>
+  std::unique_ptr<BondOperator<dim>>
+  create_bond_operator(const std::shared_ptr<const BondWeights<dim>> &weights);
 
   /// Weighs every family with the model and chooses the loop for its shape. Collective.
   /// @param moduli by material id; every material of the nodes is listed.

@@ -23,6 +23,8 @@ namespace perideal
     std::string boundary;
     /// Prescribed displacement by component [m].
     std::array<std::string, 3> displacement;
+    /// Prescribed velocity by component [m/s], in dynamics.
+    std::array<std::string, 3> velocity;
     /// Traction vector by component [Pa].
     std::array<std::string, 3> traction;
     /// Pressure [Pa], positive towards the body.
@@ -63,9 +65,17 @@ namespace perideal
     std::string                             name;
     std::vector<std::string>                boundaries;
     std::array<SpaceTimeFunction<dim>, dim> displacement;
+    std::array<SpaceTimeFunction<dim>, dim> velocity;
     std::array<SpaceTimeFunction<dim>, dim> traction;
     SpaceTimeFunction<dim>                  pressure;
 
+    /// Whether the displacement of a component is prescribed, or its velocity.
+    bool holds(const unsigned int component) const
+    {
+      return displacement[component].is_present() || velocity[component].is_present();
+    }
+
+    /// Whether it holds any component.
     bool prescribes_displacement() const;
     bool prescribes_traction() const;
   };
@@ -95,6 +105,9 @@ namespace perideal
     /// one component, a point load without a point or a force.
     explicit Loads(const LoadParameters &parameters);
     Loads() = default;
+
+    /// Whether tractions, pressures, point loads or body forces change with t.
+    bool forces_depend_on_time() const;
 
     /// Traction vector [Pa] of a condition at a boundary point with outward
     /// unit normal: the traction minus pressure times normal.

@@ -25,6 +25,8 @@ namespace perideal
     double density = 2700.;
     /// Fracture energy [J/m^2]; 0: the material does not break.
     double fracture_energy = 0.;
+    /// Stretch at which bonds break [-]; 0: from the fracture energy.
+    double critical_stretch = 0.;
   };
 
   /**

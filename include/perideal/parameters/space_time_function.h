@@ -27,11 +27,15 @@ namespace perideal
 
     bool is_present() const { return function != nullptr; }
 
+    /// Whether the expression names t.
+    bool depends_on_time() const { return names_time; }
+
     /// Value at a point [m] and time [s]; the function must be present.
     double value(const dealii::Point<dim> &point, const double time) const;
 
   private:
     std::shared_ptr<dealii::FunctionParser<dim>> function;
+    bool                                         names_time = false;
   };
 } // namespace perideal
 

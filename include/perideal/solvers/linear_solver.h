@@ -26,6 +26,16 @@ namespace perideal
     std::string  auxiliary_mesh = "automatic";
     unsigned int load_steps     = 1;
 
+    /// Of dynamics [s]; step 0: chosen.
+    double end_time = 0, time_step = 0;
+    /// Part of the largest stable step [-].
+    double      time_step_safety = 0.8;
+    std::string integrator       = "velocity verlet";
+    /// Viscous force over mass and velocity [1/s].
+    double damping = 0;
+
+    bool is_dynamic() const { return name == "dynamics"; }
+
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError on choices that do not go together.
     void check() const;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_materials_bond_based_h
+#define perideal_materials_bond_based_h
+
+#include <perideal/materials/linear_model.h>
+#include <perideal/parameters/elastic_constants.h>
+
+namespace perideal
+{
+  /**
+   * The prototype microelastic brittle material (PMB): each bond is a spring, T = c s, with
+   * the stretch s = e/|xi| and the micromodulus
+   *
+   *     c = 2 dim^2 kappa / int |xi| dV:  18 kappa/(pi d^4) in 3-D, 12 kappa/(pi d^3) per thickness in 2-D,
+   *
+   * which stores the energy of an isotropic expansion. Poisson's ratio comes out as 1/4 in 3-D and
+   * plane strain, 1/3 in plane stress (Silling and Askari 2005); kappa must be that of E and this ratio.
+   */
+  template <int dim>
+  class BondBased : public LinearModel<dim>
+  {
+  public:
+    /// @param thickness of a two-dimensional body [m], 1 in 3-D
+    explicit BondBased(const double thickness);
+
+    FamilyShape shape() const override { return {0, false}; }
+    bool        is_symmetric() const override { return true; }
+    void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
+
+    /// The Poisson's ratio that bonds alone have.
+    static double poisson_ratio(const PlaneAssumption assumption)
+    {
+      return assumption == PlaneAssumption::plane_stress ? 1. / 3. : 0.25;
+    }
+
+  private:
+    double thickness;
+  };
+} // namespace perideal
+
+#endif

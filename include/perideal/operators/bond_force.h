@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_bond_force_h
+#define perideal_operators_bond_force_h
+
+#include <perideal/operators/family_weights.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The force of the bonds in the deformed body, geometrically nonlinear: in the
+   * terms of FamilyCoefficients, with e = |y_j - y_i| - |xi| and eps = |xi| e,
+   *
+   *     F = ( sum_a weight[a]_j A_a + stiffness_j eps_j ) |xi| (y_j - y_i)/|y_j - y_i|,
+   *
+   * of which BondOperator is the linearisation at rest. Bonds may break: a bond whose length
+   * exceeds its limit loses all its weights, before the forces are summed, and for good.
+   */
+  template <int dim>
+  class BondForce
+  {
+  public:
+    virtual ~BondForce() = default;
+
+    /// Stretch at which a bond between two local nodes breaks [-]; infinity: never.
+    using CriticalStretch = std::function<double(const LocalIndex, const LocalIndex)>;
+
+    /// From now on bonds break.
+    virtual void set_critical_stretch(const CriticalStretch &stretch) = 0;
+
+    /// Takes out the bonds that @p cut (the positions of its ends) is true for, apart from damage.
+    virtual void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) = 0;
+
+    /// Force on the owned nodes [N]. Collective.
+    /// @param displacement of owned nodes [m]
+    virtual void compute(NodalVector &force, const NodalVector &displacement) = 0;
+
+    /// Bonds of all ranks that broke in the last compute(). Collective.
+    virtual GlobalIndex n_broken_now() const = 0;
+
+    /// Strain energy of all ranks at the last compute() [J]. Collective.
+    virtual double strain_energy() const = 0;
+
+    /**
+     * What the breaking in the last compute() took out of the energy of leapfrog, m v(-).v(+)/2 + U,
+     * of all ranks [J]:
+     *
+     *     U(before) - U(after) - dt/2 sum v(-).(f(after) - f(before)).
+     *
+     * Only the families of the broken bonds are looked at. Collective.
+     * @param velocity v(-) of owned nodes, half a step before [m/s]
+     */
+    virtual double released_energy(const NodalVector &velocity, const double time_step) const = 0;
+
+    /// Share of the family's volume behind broken bonds by owned node, and behind those cut at the beginning.
+    virtual std::vector<double> damage() const     = 0;
+    virtual std::vector<double> cut_share() const  = 0;
+
+    virtual std::size_t memory_consumption() const = 0;
+
+    /// A vector over owned nodes.
+    void initialize(NodalVector &vector) const { vector.reinit(partitioner); }
+
+  protected:
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+  };
+
+  /// The force of weighed bonds, which loses what breaks.
+  template <int dim>
+  std::unique_ptr<BondForce<dim>> create_bond_force(const std::shared_ptr<BondWeights<dim>> &weights);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_family_force_h
+#define perideal_operators_family_force_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/operators/bond_force.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// The nonlinear loops for models of one family shape.
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  class FamilyForce : public BondForce<dim>
+  {
+  public:
+    using Weights = FamilyWeights<dim, n_sums, own_force_weights>;
+
+    explicit FamilyForce(const std::shared_ptr<Weights> &weights);
+
+    void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void
+    cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
+    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    GlobalIndex         n_broken_now() const override;
+    double              strain_energy() const override;
+    double              released_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double> damage() const override { return share_of_family(broken_volume); }
+    std::vector<double> cut_share() const override { return share_of_family(cut_volume); }
+    std::size_t         memory_consumption() const override;
+
+  private:
+    using States = std::array<double, n_sums>;
+
+    /// A bond that broke in the last compute(), with the weights it had.
+    struct BrokenBond
+    {
+      BondIndex  slot;
+      LocalIndex near, far;
+      States     near_sum, far_sum, near_force, far_force;
+      double     stiffness;
+    };
+
+    /// Sums over a family before or after a break: with sum and force weights, and
+    /// the rate of the latter.
+    struct FamilySums
+    {
+      States sum = {}, force = {}, force_rate = {};
+    };
+
+    void import_positions(const NodalVector &displacement);
+    /// The passes over all bonds; @p can_break: with the check of lengths.
+    template <bool can_break>
+    void sum_over_families();
+    void turn_sums_into_states();
+    template <bool can_break>
+    void sum_forces();
+
+    /// Breaks those of a group of bonds that are too long.
+    void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &length);
+    void lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume);
+
+    /// eps and its rate of one bond, from the end @p i.
+    struct Motion
+    {
+      double eps, rate;
+    };
+    template <typename Velocity>
+    Motion motion(const BondIndex slot, const LocalIndex i, const LocalIndex j, const Velocity &velocity) const;
+
+    double family_energy(const LocalIndex i, const FamilySums &sums) const;
+
+    /// Slots of the bonds of an owned node.
+    std::vector<BondCursor::End> slots_of(const LocalIndex i) const;
+
+    std::vector<double> share_of_family(const std::vector<double> &volume) const;
+
+    std::shared_ptr<Weights>             weights;
+    std::shared_ptr<const Families<dim>> families;
+
+    /// Lengths at rest and largest ones [m] by slot; the latter empty where nothing breaks.
+    std::vector<double> rest_length, largest_length;
+    std::vector<double> family_volume, broken_volume, cut_volume;
+
+    std::vector<BrokenBond> broken_now;
+
+    dealii::AlignedVector<NodeRecord>       positions, forces;
+    std::array<std::vector<double>, n_sums> sums, state;
+    NodalVector                             ghosted, ghosted_states;
+    mutable NodalVector                     ghosted_velocity;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_family_weights_h
+#define perideal_operators_family_weights_h
+
+#include <perideal/base/types.h>
+#include <perideal/materials/linear_model.h>
+#include <perideal/neighbourhood/bond_list.h>
+#include <perideal/neighbourhood/families.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// Number of families of all ranks by what became of their weights.
+  struct FamilyCounts
+  {
+    GlobalIndex fallback = 0, singular = 0, indefinite = 0;
+  };
+
+  /**
+   * What a model made of every family and bond, whatever its family shape. Linear operator
+   * and nonlinear force of a scene share it.
+   */
+  template <int dim>
+  class BondWeights
+  {
+  public:
+    virtual ~BondWeights() = default;
+
+    /// Takes a bond out: all its weights become zero.
+    virtual void remove(const BondIndex slot) = 0;
+
+    virtual std::size_t memory_consumption() const = 0;
+
+    std::shared_ptr<const Families<dim>> families;
+    BondList                             bonds;
+    FamilyShape                          shape;
+    bool                                 symmetric;
+
+    FamilyCounts              counts;
+    std::vector<FamilyReport> reports;
+
+  protected:
+    BondWeights(const std::shared_ptr<const Families<dim>> &families, const LinearModel<dim> &model)
+      : families(families)
+      , bonds(*families)
+      , shape(model.shape())
+      , symmetric(model.is_symmetric())
+    {
+    }
+  };
+
+  /**
+   * The weights of models of one family shape: of each bond, for each sum, the
+   * weight of either end, and one stiffness.
+   */
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  class FamilyWeights : public BondWeights<dim>
+  {
+  public:
+    /// Weighs every family. Collective.
+    FamilyWeights(const std::shared_ptr<const Families<dim>>                    &families,
+                  LinearModel<dim>                                              &model,
+                  const std::function<Moduli(const dealii::types::material_id)> &moduli);
+
+    void        remove(const BondIndex slot) override;
+    std::size_t memory_consumption() const override;
+
+    /// Values of the two ends of every bond, by slot.
+    struct Ends
+    {
+      std::vector<double> near, far;
+    };
+    using Sums = std::array<Ends, n_sums>;
+
+    const Sums &force_weights() const
+    {
+      if constexpr (own_force_weights)
+        return force_weight;
+      else
+        return sum_weight;
+    }
+
+    /// map s, the states of a node from its sums.
+    std::array<double, n_sums> states(const LocalIndex i, const std::array<double, n_sums> &s) const
+    {
+      if constexpr (n_sums == 0)
+        return {};
+      else if constexpr (n_sums == 1)
+        return {{map[i][0] * s[0]}};
+      else
+        return {{map[i][0] * s[0] + map[i][1] * s[1], map[i][1] * s[0] + map[i][2] * s[1]}};
+    }
+
+    Sums sum_weight;
+    /// Empty unless the shape has them.
+    Sums                force_weight;
+    std::vector<double> stiffness;
+    /// Maps from sums to states by local node, ghosts included.
+    std::vector<std::array<double, 3>> map;
+    /// Coefficients of the squared sum in the strain energy by owned node; only of
+    /// models with own force weights.
+    std::vector<double> energy;
+
+  private:
+    void weigh_families(LinearModel<dim>                                              &model,
+                        const std::function<Moduli(const dealii::types::material_id)> &moduli);
+    void store(const LocalIndex                    i,
+               const FamilyCoefficients           &coefficients,
+               const std::vector<BondCursor::End> &ends);
+  };
+
+  /// Weighs every family with the model. Collective.
+  /// @param moduli by material id; every material of the nodes is listed.
+  template <int dim>
+  std::shared_ptr<BondWeights<dim>>
+  weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
+              LinearModel<dim>                                              &model,
+              const std::function<Moduli(const dealii::types::material_id)> &moduli);
+
+  /// Calls a macro with every family shape there is: dim, n_sums, own_force_weights.
+#define PERIDEAL_FOR_FAMILY_SHAPES(CALL)                                                                     \
+  CALL(2, 0, false)                                                                                          \
+  CALL(2, 1, false)                                                                                          \
+  CALL(2, 1, true)                                                                                           \
+  CALL(2, 2, false)                                                                                          \
+  CALL(3, 0, false)                                                                                          \
+  CALL(3, 1, false)                                                                                          \
+  CALL(3, 1, true)                                                                                           \
+  CALL(3, 2, false)
+
+  /// Calls visit(n_sums, own_force_weights) with a shape as constants of the types
+  /// std::integral_constant.
+  template <typename Visit>
+  auto visit_family_shape(const FamilyShape &shape, const Visit &visit)
+  {
+    using std::integral_constant;
+    if (shape.n_sums == 0)
+      return visit(integral_constant<unsigned int, 0>(), std::false_type());
+    if (shape.n_sums == 1 && !shape.own_force_weights)
+      return visit(integral_constant<unsigned int, 1>(), std::false_type());
+    if (shape.n_sums == 1)
+      return visit(integral_constant<unsigned int, 1>(), std::true_type());
+    AssertThrow(shape.n_sums == 2 && !shape.own_force_weights, dealii::ExcNotImplemented());
+    return visit(integral_constant<unsigned int, 2>(), std::false_type());
+  }
+} // namespace perideal
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_explicit_dynamics_h
+#define perideal_solvers_explicit_dynamics_h
+
+#include <perideal/boundary/held_nodes.h>
+#include <perideal/operators/bond_force.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /// Energies of all ranks [J].
+  struct EnergyBudget
+  {
+    double kinetic = 0, strain = 0;
+    /// Set free by breaking bonds; taken by damping; put in by loads and supports.
+    double dissipated = 0, damped = 0, external = 0;
+
+    /// What is missing, over what was put in or is there.
+    double drift() const;
+  };
+
+  /**
+   * Central differences: velocities at half steps, v(+) = v(-) + dt F/m, u = u + dt v(+)
+   * (symplectic Euler, XOSB eq. 74). Started half a step back it is velocity Verlet.
+   *
+   * The energy that this conserves is m v(-).v(+)/2 + U; the work of loads, supports and damping is
+   * summed by the trapezoidal rule, dt/2 v.(F(n) + F(n+1)), which belongs to it.
+   */
+  template <int dim>
+  class ExplicitDynamics
+  {
+  public:
+    enum class Start
+    {
+      symplectic_euler,
+      velocity_verlet
+    };
+
+    /// @param mass of owned nodes [kg]
+    /// @param damping force over mass and velocity [1/s]
+    /// The arguments must outlive this object.
+    ExplicitDynamics(BondForce<dim>            &bonds,
+                     const HeldNodes<dim>      &held,
+                     const Loads<dim>          &loads,
+                     const std::vector<double> &mass,
+                     const double               damping,
+                     const double               time_step,
+                     const Start                start);
+
+    /// Forces, velocities of the next half step and energies at the present time;
+    /// to be followed by advance(). Collective.
+    /// @param external force of the loads [N]
+    void evaluate(const NodalVector &external);
+
+    /// Moves on by one step.
+    void advance();
+
+    double       time() const { return n_steps * time_step; }
+    unsigned int step() const { return n_steps; }
+
+    /// Energies at the present time, after evaluate(). Collective.
+    EnergyBudget energy() const;
+    /// Forces of the supports at the present time [N], zero in free components.
+    const NodalVector &reaction() const { return support_force; }
+    GlobalIndex        n_broken() const { return broken; }
+    GlobalIndex        n_broken_now() const { return newly_broken; }
+
+    /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),
+    /// half a step after it.
+    NodalVector displacement, velocity;
+
+  private:
+    BondForce<dim>            &bonds;
+    const HeldNodes<dim>      &held;
+    const Loads<dim>          &loads;
+    const std::vector<double> &mass;
+    const double               damping, time_step;
+    const Start                start;
+
+    NodalVector  force, earlier_velocity, support_force;
+    unsigned int n_steps = 0;
+    GlobalIndex  broken = 0, newly_broken = 0;
+    /// Of this rank, at the present time.
+    double kinetic = 0, damped = 0, external_work = 0;
+    /// Powers of this rank times half a step that belong to the next interval.
+    double next_damped = 0, next_external_work = 0;
+    /// Of all ranks.
+    double dissipated = 0;
+  };
+} // namespace perideal
+
+#endif

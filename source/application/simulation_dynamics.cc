@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/advice.h>
+#include <perideal/application/output_fields.h>
+#include <perideal/application/report.h>
+#include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/boundary/nodal_forces.h>
+#include <perideal/fracture/critical_stretch.h>
+#include <perideal/operators/stable_time_step.h>
+#include <perideal/output/files.h>
+#include <perideal/output/summary.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+
+// Simulation: explicit dynamics.
+
+namespace perideal
+{
+  template <int dim>
+  double Simulation<dim>::critical_stretch(const dealii::types::material_id id, const double horizon) const
+  {
+    const MaterialProperties &material = properties_of(id);
+    if (material.critical_stretch > 0)
+      return material.critical_stretch;
+    if (material.fracture_energy > 0)
+      return ordinary_critical_stretch(
+        parameters.model.constants_of_model(scene.constants.at(id)), material.fracture_energy, horizon);
+    return std::numeric_limits<double>::infinity();
+  }
+
+  template <int dim>
+  double Simulation<dim>::choose_time_step()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const double         stable = stable_time_step(
+      *scene.system, [&](const dealii::types::material_id id) { return properties_of(id).density; });
+    const double wanted =
+      parameters.solver.time_step > 0 ? parameters.solver.time_step : parameters.solver.time_step_safety * stable;
+    // A whole number of steps.
+    const double n_steps = std::max(1., std::ceil(parameters.solver.end_time / wanted - 1e-9));
+    const double result  = parameters.solver.end_time / n_steps;
+    if (result > stable)
+      screen << "warning     the time step " << short_number(result)
+             << " s is larger than the largest stable one, " << short_number(stable) << " s" << std::endl;
+    summary["solver"]["time_step"]        = result;
+    summary["solver"]["stable_time_step"] = stable;
+    return result;
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_cracks_and_limits()
+  {
+    std::vector<Precrack<dim>> cracks;
+    for (const PrecrackText &text : parameters.precracks.cracks)
+      cracks.emplace_back(text);
+    if (!cracks.empty())
+      scene.force->cut([&](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
+        return std::any_of(cracks.begin(), cracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
+      });
+    if (!can_break(parameters))
+      return;
+    const Families<dim> &families = *scene.families;
+    scene.force->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
+      // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
+      const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
+      return std::min(critical_stretch(families.material[i], horizon),
+                      critical_stretch(families.material[j], horizon));
+    });
+  }
+
+  template <int dim>
+  void Simulation<dim>::run_dynamics()
+  {
+    weigh_bonds();
+    const double time_step = choose_time_step();
+    std::vector<double> mass(scene.nodes->size());
+    {
+      const Timings::Scope scope(timings, "setup");
+      scene.force = create_bond_force<dim>(scene.weights);
+      make_cracks_and_limits();
+      for (LocalIndex i = 0; i < mass.size(); ++i)
+        mass[i] = properties_of(scene.nodes->material[i]).density * scene.nodes->volume[i];
+    }
+    const bool verlet          = parameters.solver.integrator == "velocity verlet";
+    summary["solver"]["name"] = "explicit dynamics, " + parameters.solver.integrator;
+    screen << banner(parameters, scene) << "time        " << short_number(parameters.solver.end_time)
+           << " s in " << std::lround(parameters.solver.end_time / time_step) << " steps of "
+           << short_number(time_step) << " s, " << parameters.solver.integrator << std::endl;
+    for (const std::string &warning : warnings(parameters, scene))
+      screen << "warning     " << warning << std::endl;
+
+    history      = std::make_unique<History>(parameters.output_directory, communicator);
+    field_output = std::make_unique<FieldOutput<dim>>(
+      *scene.mesh, *scene.nodes, parameters.output_directory, OutputSteps::series);
+
+    ExplicitDynamics<dim> dynamics(*scene.force,
+                                   scene.held,
+                                   scene.loads,
+                                   mass,
+                                   parameters.solver.damping,
+                                   time_step,
+                                   verlet ? ExplicitDynamics<dim>::Start::velocity_verlet :
+                                            ExplicitDynamics<dim>::Start::symplectic_euler);
+    const char *axes[] = {"x", "y", "z"};
+    for (int d = 0; d < dim; ++d)
+      {
+        const SpaceTimeFunction<dim> initial(parameters.initial.velocity[d],
+                                             std::string("Initial conditions/v_") + axes[d]);
+        if (initial.is_present())
+          for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+            dynamics.velocity.local_element(dim * i + d) = initial.value(scene.nodes->position[i], 0.);
+      }
+    try
+      {
+        run_steps(dynamics, time_step);
+      }
+    catch (const ComputationError &)
+      {
+        finish("failed");
+        throw;
+      }
+    finish("done");
+  }
+
+  template <int dim>
+  void Simulation<dim>::run_steps(ExplicitDynamics<dim> &dynamics, const double time_step)
+  {
+    const unsigned int n_steps = std::lround(parameters.solver.end_time / time_step);
+    scene.system->initialize(external_force);
+    check_finite(scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
+    const auto set_loads = [&]() {
+      compute_nodal_forces(*scene.nodes,
+                           scene.faces,
+                           scene.loads,
+                           scene.condition_boundaries,
+                           dynamics.time(),
+                           external_force);
+      scene.point_forces.add(scene.loads, dynamics.time(), external_force);
+    };
+    set_loads();
+    const bool   loads_change   = scene.loads.forces_depend_on_time();
+    unsigned int frames_written = 0;
+    double       first_break    = -1;
+    for (unsigned int n = 0; n <= n_steps; ++n)
+      {
+        {
+          const Timings::Scope scope(timings, "solve");
+          if (loads_change && n > 0)
+            set_loads();
+          dynamics.evaluate(external_force);
+        }
+        if (first_break < 0 && dynamics.n_broken() > 0)
+          {
+            first_break                      = dynamics.time();
+            summary["damage"]["first_break_time"] = first_break;
+          }
+        summary["solver"]["steps"] = n;
+        if (n % parameters.history_steps == 0 || n == n_steps)
+          record_dynamics(dynamics);
+        while (frames_written < parameters.frames &&
+               n >= std::round(double(frames_written + 1) * n_steps / parameters.frames))
+          {
+            write_frame(frames_written + 1, dynamics);
+            ++frames_written;
+          }
+        if (n < n_steps)
+          {
+            const Timings::Scope scope(timings, "solve");
+            dynamics.advance();
+          }
+      }
+  }
+
+  template <int dim>
+  void Simulation<dim>::record_dynamics(const ExplicitDynamics<dim> &dynamics)
+  {
+    const Timings::Scope scope(timings, "energy");
+    const EnergyBudget   energy = dynamics.energy();
+    if (!std::isfinite(energy.kinetic) || !std::isfinite(energy.strain))
+      {
+        double     fastest = 0;
+        LocalIndex node    = 0;
+        for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+          for (int d = 0; d < dim; ++d)
+            if (!(std::abs(dynamics.velocity.local_element(dim * i + d)) <= fastest))
+              {
+                fastest = std::abs(dynamics.velocity.local_element(dim * i + d));
+                node    = i;
+              }
+        std::ostringstream where;
+        if (scene.nodes->size() > 0)
+          where << scene.nodes->first_global + node << " at (" << scene.nodes->position[node] << ")";
+        throw ComputationError("the motion is not finite at step " + std::to_string(dynamics.step()) + ", t = " +
+                               short_number(dynamics.time()) + " s, first seen at node " + where.str() +
+                               "\n  likely cause: an unstable time step; the largest stable one is " +
+                               short_number(summary["solver"]["stable_time_step"].template get<double>()) +
+                               " s\n  advice: set Solver/Time step = 0");
+      }
+    history->add("step", dynamics.step());
+    history->add("time [s]", dynamics.time());
+    history->add("kinetic energy [J]", energy.kinetic);
+    history->add("strain energy [J]", energy.strain);
+    history->add("dissipated energy [J]", energy.dissipated);
+    history->add("damped energy [J]", energy.damped);
+    history->add("external work [J]", energy.external);
+    history->add("drift [-]", energy.drift());
+    history->add("broken bonds", dynamics.n_broken());
+    const auto  reactions = scene.held.sum_by_condition(dynamics.reaction(), communicator);
+    const char *axes[]    = {"x", "y", "z"};
+    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
+      if (scene.loads.conditions[k].prescribes_displacement())
+        for (int d = 0; d < dim; ++d)
+          history->add("reaction of " + scene.loads.conditions[k].name + " along " + axes[d] + " [N]",
+                       reactions[k][d]);
+    history->end_row();
+    double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
+    if (std::abs(energy.drift()) > std::abs(worst))
+      worst = energy.drift();
+    summary["energy"]               = {{"strain", energy.strain},
+                                       {"kinetic", energy.kinetic},
+                                       {"dissipated", energy.dissipated},
+                                       {"damped", energy.damped},
+                                       {"external", energy.external},
+                                       {"drift", worst}};
+    summary["damage"]["broken_bonds"] = dynamics.n_broken();
+  }
+
+  template <int dim>
+  void Simulation<dim>::write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics)
+  {
+    const Timings::Scope scope(timings, "output");
+    scene.displacement.resize(scene.nodes->size());
+    scene.velocity.resize(scene.nodes->size());
+    for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        {
+          scene.displacement[i][d] = dynamics.displacement.local_element(dim * i + d);
+          scene.velocity[i][d]     = dynamics.velocity.local_element(dim * i + d);
+        }
+    add_output_fields(scene, parameters.field_names(), *field_output);
+    field_output->write(number, dynamics.time());
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template double Simulation<dim>::critical_stretch(const dealii::types::material_id, const double) const;   \
+  template void   Simulation<dim>::run_dynamics();
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/family_force.h>
+
+#include <algorithm>
+
+// The hot loops of FamilyForce: two passes over all bonds, one where forces need no sums.
+
+namespace perideal
+{
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::import_positions(const NodalVector &displacement)
+  {
+    const NodalVector *source = &displacement;
+    if (families->n_local() > families->n_owned())
+      {
+        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
+        ghosted.update_ghost_values();
+        source = &ghosted;
+      }
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        positions[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
+    ghosted.zero_out_ghost_values();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families()
+  {
+    for (unsigned int a = 0; a < n_sums; ++a)
+      std::fill(sums[a].begin(), sums[a].end(), 0.);
+    const BondList   &bonds     = weights->bonds;
+    const LocalIndex *neighbour = bonds.neighbour.data();
+    const NodeRecord *y         = positions.data();
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        const Lanes               yi  = lanes(y[i]);
+        std::array<Lanes, n_sums> own = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j = neighbour + k;
+            const Lanes       bond[4] = {
+              lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square, rest;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            const Lanes length = square_root(square);
+            load(rest, rest_length.data() + k);
+            if constexpr (can_break)
+              {
+                Lanes largest;
+                load(largest, largest_length.data() + k);
+                if (__builtin_expect(any_negative(largest - length), false))
+                  break_bonds(i, k, length);
+              }
+            const Lanes extension = (length - rest) * rest;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                Lanes near, far;
+                load(near, weights->sum_weight[a].near.data() + k);
+                load(far, weights->sum_weight[a].far.data() + k);
+                own[a] += near * extension;
+                far *= extension;
+                double *sum = sums[a].data();
+                for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+                  sum[j[lane]] += far[lane];
+              }
+          }
+        for (unsigned int a = 0; a < n_sums; ++a)
+          sums[a][i] += sum_of_all(own[a]);
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::turn_sums_into_states()
+  {
+    const bool has_ghosts = families->n_local() > families->n_owned();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        States s;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          s[a] = sums[a][i];
+        s = weights->states(i, s);
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            state[a][i] = s[a];
+            if (has_ghosts)
+              ghosted_states.local_element(n_sums * i + a) = s[a];
+          }
+      }
+    if (!has_ghosts)
+      return;
+    ghosted_states.update_ghost_values();
+    for (LocalIndex i = families->n_owned(); i < families->n_local(); ++i)
+      for (unsigned int a = 0; a < n_sums; ++a)
+        state[a][i] = ghosted_states.local_element(n_sums * i + a);
+    ghosted_states.zero_out_ghost_values();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
+  {
+    const BondList   &bonds     = weights->bonds;
+    const LocalIndex *neighbour = bonds.neighbour.data();
+    const NodeRecord *y         = positions.data();
+    NodeRecord       *f         = forces.data();
+    const auto       &pull_weights = weights->force_weights();
+    const Lanes       tiny      = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
+    std::fill(forces.begin(), forces.end(), NodeRecord{});
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        const Lanes yi  = lanes(y[i]);
+        Lanes       own = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j = neighbour + k;
+            const Lanes       bond[4] = {
+              lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square, rest, magnitude;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            const Lanes length = square_root(square + tiny);
+            load(rest, rest_length.data() + k);
+            if constexpr (can_break)
+              {
+                Lanes largest;
+                load(largest, largest_length.data() + k);
+                if (__builtin_expect(any_negative(largest - length), false))
+                  break_bonds(i, k, length);
+              }
+            load(magnitude, weights->stiffness.data() + k);
+            magnitude *= (length - rest) * rest;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                Lanes near, far;
+                load(near, pull_weights[a].near.data() + k);
+                load(far, pull_weights[a].far.data() + k);
+                const double *s = state[a].data();
+                magnitude += near * s[i] + far * Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+              }
+            magnitude *= rest / length;
+            for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+              {
+                const Lanes pull = magnitude[lane] * bond[lane];
+                own += pull;
+                lanes(f[j[lane]]) -= pull;
+              }
+          }
+        lanes(f[i]) += own;
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector       &force,
+                                                            const NodalVector &displacement)
+  {
+    broken_now.clear();
+    import_positions(displacement);
+    const bool can_break = !largest_length.empty();
+    if constexpr (n_sums > 0)
+      {
+        if (can_break)
+          sum_over_families<true>();
+        else
+          sum_over_families<false>();
+        turn_sums_into_states();
+        sum_forces<false>();
+      }
+    else if (can_break)
+      sum_forces<true>();
+    else
+      sum_forces<false>();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) = forces[i].value[d];
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

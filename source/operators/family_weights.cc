@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/family_weights.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+namespace perideal
+{
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  FamilyWeights<dim, n_sums, own_force_weights>::FamilyWeights(
+    const std::shared_ptr<const Families<dim>>                    &families,
+    LinearModel<dim>                                              &model,
+    const std::function<Moduli(const dealii::types::material_id)> &moduli)
+    : BondWeights<dim>(families, model)
+  {
+    weigh_families(model, moduli);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(
+    LinearModel<dim> &model, const std::function<Moduli(const dealii::types::material_id)> &moduli)
+  {
+    const Families<dim> &families = *this->families;
+    const BondList      &bonds    = this->bonds;
+    const BondIndex      n        = bonds.n_slots();
+    stiffness.assign(n, 0.);
+    for (Sums *weights : {&sum_weight, &force_weight})
+      if (weights == &sum_weight || own_force_weights)
+        for (Ends &ends : *weights)
+          {
+            ends.near.assign(n, 0.);
+            ends.far.assign(n, 0.);
+          }
+    map.resize(families.n_local());
+    energy.assign(own_force_weights ? families.n_owned() : 0, 0.);
+    this->reports.resize(families.n_owned());
+
+    BondCursor                   cursor(bonds);
+    std::vector<BondCursor::End> ends;
+    FamilyView<dim>              view;
+    FamilyCoefficients           coefficients;
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      {
+        view.reinit(families, i);
+        const Moduli material = moduli(families.material[i]);
+        view.bulk_modulus     = material.bulk_modulus;
+        view.shear_modulus    = material.shear_modulus;
+        coefficients.resize(view.size, model.shape());
+        model.compute(view, coefficients);
+        cursor.find(i, families.begin(i), families.end(i), ends);
+        store(i, coefficients, ends);
+      }
+
+    // The far ends of cut bonds, and the maps of ghosts, come from their owners.
+    std::vector<double>         far_stiffness(n, 0.);
+    std::vector<const double *> near = {stiffness.data()};
+    std::vector<double *>       far  = {far_stiffness.data()};
+    for (Sums *weights : {&sum_weight, &force_weight})
+      if (weights == &sum_weight || own_force_weights)
+        for (Ends &end_values : *weights)
+          {
+            near.push_back(end_values.near.data());
+            far.push_back(end_values.far.data());
+          }
+    exchange_cut_bonds(families, bonds, near, far);
+    for (BondIndex slot = 0; slot < n; ++slot)
+      stiffness[slot] += far_stiffness[slot];
+
+    NodalVector maps(families.make_partitioner(3));
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        maps.local_element(3 * i + k) = map[i][k];
+    maps.update_ghost_values();
+    for (LocalIndex i = families.n_owned(); i < families.n_local(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        map[i][k] = maps.local_element(3 * i + k);
+
+    for (const FamilyReport &report : this->reports)
+      {
+        this->counts.fallback += report.fallback;
+        this->counts.singular += report.singular;
+        this->counts.indefinite += report.indefinite;
+      }
+    for (GlobalIndex *count : {&this->counts.fallback, &this->counts.singular, &this->counts.indefinite})
+      *count = dealii::Utilities::MPI::sum(*count, families.communicator);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::store(const LocalIndex                    i,
+                                                             const FamilyCoefficients           &coefficients,
+                                                             const std::vector<BondCursor::End> &ends)
+  {
+    map[i]           = coefficients.map;
+    this->reports[i] = coefficients.report;
+    if constexpr (own_force_weights)
+      energy[i] = coefficients.energy;
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      {
+        const BondCursor::End end = ends[k];
+        stiffness[end.slot] += coefficients.stiffness[k];
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            (end.is_near ? sum_weight[a].near : sum_weight[a].far)[end.slot] = coefficients.sum[a][k];
+            if constexpr (own_force_weights)
+              (end.is_near ? force_weight[a].near : force_weight[a].far)[end.slot] =
+                coefficients.force_weight[a][k];
+          }
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::remove(const BondIndex slot)
+  {
+    stiffness[slot] = 0.;
+    for (Sums *weights : {&sum_weight, &force_weight})
+      if (weights == &sum_weight || own_force_weights)
+        for (Ends &ends : *weights)
+          ends.near[slot] = ends.far[slot] = 0.;
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  std::size_t FamilyWeights<dim, n_sums, own_force_weights>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    std::size_t bytes = this->bonds.memory_consumption() + memory_consumption(stiffness) +
+                        map.size() * sizeof(map[0]) + memory_consumption(energy);
+    for (const Sums *weights : {&sum_weight, &force_weight})
+      for (const Ends &ends : *weights)
+        bytes += memory_consumption(ends.near) + memory_consumption(ends.far);
+    return bytes;
+  }
+
+  template <int dim>
+  std::shared_ptr<BondWeights<dim>>
+  weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
+              LinearModel<dim>                                              &model,
+              const std::function<Moduli(const dealii::types::material_id)> &moduli)
+  {
+    return visit_family_shape(
+      model.shape(), [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
+        return std::make_shared<FamilyWeights<dim, n_sums, own>>(families, model, moduli);
+      });
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template class FamilyWeights<dim, n_sums, own_force_weights>;
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
+#undef PERIDEAL_INSTANTIATE
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template std::shared_ptr<BondWeights<dim>> weigh_bonds(                                                    \
+    const std::shared_ptr<const Families<dim>> &,                                                            \
+    LinearModel<dim> &,                                                                                      \
+    const std::function<Moduli(const dealii::types::material_id)> &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/solvers/explicit_dynamics.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  double EnergyBudget::drift() const
+  {
+    const double there = kinetic + strain + dissipated + damped;
+    const double scale = std::max({std::abs(external), std::abs(there), 1e-300});
+    return (external - there) / scale;
+  }
+
+  template <int dim>
+  ExplicitDynamics<dim>::ExplicitDynamics(BondForce<dim>            &bonds,
+                                          const HeldNodes<dim>      &held,
+                                          const Loads<dim>          &loads,
+                                          const std::vector<double> &mass,
+                                          const double               damping,
+                                          const double               time_step,
+                                          const Start                start)
+    : bonds(bonds)
+    , held(held)
+    , loads(loads)
+    , mass(mass)
+    , damping(damping)
+    , time_step(time_step)
+    , start(start)
+  {
+    for (NodalVector *vector : {&displacement, &velocity, &force, &earlier_velocity, &support_force})
+      bonds.initialize(*vector);
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
+  {
+    bonds.compute(force, displacement);
+    newly_broken = bonds.n_broken_now();
+    broken += newly_broken;
+    if (n_steps == 0 && start == Start::velocity_verlet)
+      for (std::size_t k = 0; k < dim * mass.size(); ++k)
+        velocity.local_element(k) -=
+          0.5 * time_step * (force.local_element(k) + external.local_element(k)) / mass[k / dim];
+    if (newly_broken > 0)
+      dissipated += bonds.released_energy(velocity, time_step);
+
+    earlier_velocity.swap(velocity);
+    held.set_velocities(loads, time(), time_step, displacement, velocity);
+    const std::uint8_t *is_held = held.mask().data();
+    const double       *f = force.begin(), *p = external.begin(), *before = earlier_velocity.begin();
+    double             *after = velocity.begin(), *support = support_force.begin();
+    // Twice the work that the forces do in the halves of a step before and after the present time.
+    double kinetic_sum = 0, work_before = 0, work_after = 0, damped_before = 0, damped_after = 0;
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
+        {
+          const double drag = damping * mass[i] * before[k];
+          const double free = f[k] + p[k] - drag;
+          if (is_held[k])
+            support[k] = mass[i] * (after[k] - before[k]) / time_step - free;
+          else
+            after[k] = before[k] + time_step * free / mass[i];
+          kinetic_sum += mass[i] * before[k] * after[k];
+          work_before += (p[k] + support[k]) * before[k];
+          work_after += (p[k] + support[k]) * after[k];
+          damped_before += drag * before[k];
+          damped_after += drag * after[k];
+        }
+    kinetic = 0.5 * kinetic_sum;
+    // At the beginning the initial motion is there: what it holds counts as put in.
+    external_work += n_steps == 0 ? kinetic : next_external_work + 0.5 * time_step * work_before;
+    damped += n_steps == 0 ? 0. : next_damped + 0.5 * time_step * damped_before;
+    next_external_work = 0.5 * time_step * work_after;
+    next_damped        = 0.5 * time_step * damped_after;
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::advance()
+  {
+    displacement.add(time_step, velocity);
+    ++n_steps;
+  }
+
+  template <int dim>
+  EnergyBudget ExplicitDynamics<dim>::energy() const
+  {
+    const MPI_Comm communicator = displacement.get_mpi_communicator();
+    using dealii::Utilities::MPI::sum;
+    EnergyBudget result;
+    result.kinetic    = sum(kinetic, communicator);
+    result.strain     = bonds.strain_energy();
+    result.dissipated = dissipated;
+    result.damped     = sum(damped, communicator);
+    result.external   = sum(external_work, communicator);
+    return result;
+  }
+
+  template class ExplicitDynamics<2>;
+  template class ExplicitDynamics<3>;
+} // namespace perideal
