@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A plate of 100 mm x 200 mm in equal squares, struck on its left edge between y = 75 mm and 125 mm.
-size = 0.00125; // of the squares [m]; divides 25 mm
+size = 0.0025; // of the squares [m]; divides 25 mm
 nx   = Round(0.1 / size);
 
 Point(1) = {0, 0, 0};

@@ -68,6 +68,7 @@ namespace perideal
     loads.declare(prm, file);
     initial.declare(prm);
     precracks.declare(prm, file);
+    cracks.declare(prm, file);
     comparison.declare(prm);
     prm.enter_subsection("Output");
     prm.add_parameter(
@@ -100,6 +101,7 @@ namespace perideal
     nodes.check();
     material.check();
     solver.check();
+    cracks.check();
     resolve();
     if (comparison.reference_refinements < 0 && mesh.refinements == 0)
       throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
@@ -231,7 +233,8 @@ namespace perideal
                            "subsection Boundary conditions\n"
                            " subsection ANY NAME\n end\nend\n"
                            "subsection Point loads\n subsection ANY NAME\n end\nend\n"
-                           "subsection Precracks\n subsection ANY NAME\n end\nend\n",
+                           "subsection Precracks\n subsection ANY NAME\n end\nend\n"
+                           "subsection Cracks\n subsection ANY NAME\n end\nend\n",
                            "");
     SceneParameters          scene;
     dealii::ParameterHandler prm;

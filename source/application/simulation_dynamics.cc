@@ -5,7 +5,9 @@
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/nodal_forces.h>
+#include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/critical_stretch.h>
+#include <perideal/fracture/fragments.h>
 #include <perideal/operators/stable_time_step.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
@@ -37,8 +39,8 @@ namespace perideal
     const Timings::Scope scope(timings, "setup");
     const double         stable = stable_time_step(
       *scene.system, [&](const dealii::types::material_id id) { return properties_of(id).density; });
-    const double wanted =
-      parameters.solver.time_step > 0 ? parameters.solver.time_step : parameters.solver.time_step_safety * stable;
+    const double wanted = parameters.solver.time_step > 0 ? parameters.solver.time_step :
+                                                            parameters.solver.time_step_safety * stable;
     // A whole number of steps.
     const double n_steps = std::max(1., std::ceil(parameters.solver.end_time / wanted - 1e-9));
     const double result  = parameters.solver.end_time / n_steps;
@@ -58,7 +60,8 @@ namespace perideal
       cracks.emplace_back(text);
     if (!cracks.empty())
       scene.force->cut([&](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
-        return std::any_of(cracks.begin(), cracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
+        return std::any_of(
+          cracks.begin(), cracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
       });
     if (!can_break(parameters))
       return;
@@ -75,7 +78,7 @@ namespace perideal
   void Simulation<dim>::run_dynamics()
   {
     weigh_bonds();
-    const double time_step = choose_time_step();
+    const double        time_step = choose_time_step();
     std::vector<double> mass(scene.nodes->size());
     {
       const Timings::Scope scope(timings, "setup");
@@ -84,7 +87,7 @@ namespace perideal
       for (LocalIndex i = 0; i < mass.size(); ++i)
         mass[i] = properties_of(scene.nodes->material[i]).density * scene.nodes->volume[i];
     }
-    const bool verlet          = parameters.solver.integrator == "velocity verlet";
+    const bool verlet         = parameters.solver.integrator == "velocity verlet";
     summary["solver"]["name"] = "explicit dynamics, " + parameters.solver.integrator;
     screen << banner(parameters, scene) << "time        " << short_number(parameters.solver.end_time)
            << " s in " << std::lround(parameters.solver.end_time / time_step) << " steps of "
@@ -104,7 +107,7 @@ namespace perideal
                                    time_step,
                                    verlet ? ExplicitDynamics<dim>::Start::velocity_verlet :
                                             ExplicitDynamics<dim>::Start::symplectic_euler);
-    const char *axes[] = {"x", "y", "z"};
+    const char           *axes[] = {"x", "y", "z"};
     for (int d = 0; d < dim; ++d)
       {
         const SpaceTimeFunction<dim> initial(parameters.initial.velocity[d],
@@ -130,20 +133,19 @@ namespace perideal
   {
     const unsigned int n_steps = std::lround(parameters.solver.end_time / time_step);
     scene.system->initialize(external_force);
-    check_finite(scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
+    check_finite(
+      scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
     const auto set_loads = [&]() {
-      compute_nodal_forces(*scene.nodes,
-                           scene.faces,
-                           scene.loads,
-                           scene.condition_boundaries,
-                           dynamics.time(),
-                           external_force);
+      compute_nodal_forces(
+        *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, dynamics.time(), external_force);
       scene.point_forces.add(scene.loads, dynamics.time(), external_force);
     };
     set_loads();
-    const bool   loads_change   = scene.loads.forces_depend_on_time();
-    unsigned int frames_written = 0;
-    double       first_break    = -1;
+    const bool        loads_change   = scene.loads.forces_depend_on_time();
+    unsigned int      frames_written = 0;
+    CrackTracker<dim> cracks(parameters.cracks, *scene.nodes, scene.force->cut_share());
+    const bool        follows_cracks = !parameters.cracks.cracks.empty();
+    double            first_break    = -1;
     for (unsigned int n = 0; n <= n_steps; ++n)
       {
         {
@@ -154,9 +156,11 @@ namespace perideal
         }
         if (first_break < 0 && dynamics.n_broken() > 0)
           {
-            first_break                      = dynamics.time();
+            first_break                           = dynamics.time();
             summary["damage"]["first_break_time"] = first_break;
           }
+        if (follows_cracks && dynamics.n_broken_now() > 0)
+          cracks.update(dynamics.time(), total_damage());
         summary["solver"]["steps"] = n;
         if (n % parameters.history_steps == 0 || n == n_steps)
           record_dynamics(dynamics);
@@ -172,6 +176,21 @@ namespace perideal
             dynamics.advance();
           }
       }
+    if (follows_cracks)
+      summary["cracks"] = cracks.describe();
+    if (can_break(parameters))
+      summary["damage"]["fragments"] =
+        find_fragments(*scene.families, scene.nodes->spacing, total_damage(), parameters.cracks.damage);
+  }
+
+  template <int dim>
+  std::vector<double> Simulation<dim>::total_damage() const
+  {
+    std::vector<double>       result = scene.force->damage();
+    const std::vector<double> cut    = scene.force->cut_share();
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += cut[i];
+    return result;
   }
 
   template <int dim>
@@ -193,12 +212,15 @@ namespace perideal
         std::ostringstream where;
         if (scene.nodes->size() > 0)
           where << scene.nodes->first_global + node << " at (" << scene.nodes->position[node] << ")";
-        throw ComputationError("the motion is not finite at step " + std::to_string(dynamics.step()) + ", t = " +
-                               short_number(dynamics.time()) + " s, first seen at node " + where.str() +
+        throw ComputationError("the motion is not finite at step " + std::to_string(dynamics.step()) +
+                               ", t = " + short_number(dynamics.time()) + " s, first seen at node " +
+                               where.str() +
                                "\n  likely cause: an unstable time step; the largest stable one is " +
                                short_number(summary["solver"]["stable_time_step"].template get<double>()) +
                                " s\n  advice: set Solver/Time step = 0");
       }
+    largest_energy     = std::max({largest_energy, std::abs(energy.external), energy.kinetic});
+    const double drift = largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
     history->add("step", dynamics.step());
     history->add("time [s]", dynamics.time());
     history->add("kinetic energy [J]", energy.kinetic);
@@ -206,7 +228,7 @@ namespace perideal
     history->add("dissipated energy [J]", energy.dissipated);
     history->add("damped energy [J]", energy.damped);
     history->add("external work [J]", energy.external);
-    history->add("drift [-]", energy.drift());
+    history->add("drift [-]", drift);
     history->add("broken bonds", dynamics.n_broken());
     const auto  reactions = scene.held.sum_by_condition(dynamics.reaction(), communicator);
     const char *axes[]    = {"x", "y", "z"};
@@ -217,14 +239,14 @@ namespace perideal
                        reactions[k][d]);
     history->end_row();
     double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
-    if (std::abs(energy.drift()) > std::abs(worst))
-      worst = energy.drift();
-    summary["energy"]               = {{"strain", energy.strain},
-                                       {"kinetic", energy.kinetic},
-                                       {"dissipated", energy.dissipated},
-                                       {"damped", energy.damped},
-                                       {"external", energy.external},
-                                       {"drift", worst}};
+    if (std::abs(drift) > std::abs(worst))
+      worst = drift;
+    summary["energy"]                 = {{"strain", energy.strain},
+                                         {"kinetic", energy.kinetic},
+                                         {"dissipated", energy.dissipated},
+                                         {"damped", energy.damped},
+                                         {"external", energy.external},
+                                         {"drift", worst}};
     summary["damage"]["broken_bonds"] = dynamics.n_broken();
   }
 

@@ -19,7 +19,7 @@ namespace perideal
     // T = c e/|xi|, a half of it from either family; as stiffness eps xi with eps = |xi| e
     // the bond pulls with stiffness |xi|^2 e.
     using dealii::numbers::PI;
-    const double d           = family.horizon;
+    const double d            = family.horizon;
     const double first_moment = dim == 3 ? PI * std::pow(d, 4) : thickness * 2. * PI / 3. * std::pow(d, 3);
     const double micromodulus = 2. * dim * dim * family.bulk_modulus / first_moment;
     for (LocalIndex j = 0; j < family.size; ++j)

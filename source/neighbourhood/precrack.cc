@@ -20,8 +20,10 @@ namespace perideal
                          const dealii::Point<2> &a,
                          const dealii::Point<2> &b)
     {
-      const auto   along = q - p;
-      const auto   side  = [&](const dealii::Point<2> &x) { return along[0] * (x - p)[1] - along[1] * (x - p)[0]; };
+      const auto along = q - p;
+      const auto side  = [&](const dealii::Point<2> &x) {
+        return along[0] * (x - p)[1] - along[1] * (x - p)[0];
+      };
       const double at_a = side(a), at_b = side(b);
       if ((at_a < 0) == (at_b < 0))
         return false;
@@ -68,10 +70,11 @@ namespace perideal
     for (PrecrackText &crack : cracks)
       {
         prm.enter_subsection(crack.name);
-        prm.add_parameter("Points",
-                          crack.points,
-                          "Points separated by semicolons, their coordinates [m] by commas: in 2-D of a line, "
-                          "in 3-D of a plane polygon; bonds that cross it are cut");
+        prm.add_parameter(
+          "Points",
+          crack.points,
+          "Points separated by semicolons, their coordinates [m] by commas: in 2-D of a line, "
+          "in 3-D of a plane polygon; bonds that cross it are cut");
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -123,7 +126,8 @@ namespace perideal
     else
       {
         const double at_a = (a - points[0]) * normal, at_b = (b - points[0]) * normal;
-        return (at_a < 0) != (at_b < 0) && is_inside(points, normal, size, a + at_a / (at_a - at_b) * (b - a));
+        return (at_a < 0) != (at_b < 0) &&
+               is_inside(points, normal, size, a + at_a / (at_a - at_b) * (b - a));
       }
   }
 

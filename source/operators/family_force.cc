@@ -224,12 +224,12 @@ namespace perideal
 
     // The strain energy is that of the bonds, eps^2 stiffness/2, and of the families; the power of the
     // bond forces, sum v.f, is -sum stiffness eps eps' - sum A.(force sums)'.
-    double                                         energy = 0, power = 0;
+    double                                          energy = 0, power = 0;
     std::vector<std::pair<LocalIndex, std::size_t>> broken_at;
     for (std::size_t b = 0; b < broken_now.size(); ++b)
       {
-        const BrokenBond &bond = broken_now[b];
-        const Motion      m    = motion(bond.slot, bond.near, bond.far, velocity_of);
+        const BrokenBond &bond  = broken_now[b];
+        const Motion      m     = motion(bond.slot, bond.near, bond.far, velocity_of);
         const double      share = bond.far < n_owned ? 1. : 0.5;
         energy -= share * 0.5 * bond.stiffness * m.eps * m.eps;
         power += share * bond.stiffness * m.eps * m.rate;
@@ -247,9 +247,10 @@ namespace perideal
           after.sum[a] = sums[a][i];
         for (const BondCursor::End &end : slots_of(i))
           {
-            const auto   row = std::upper_bound(weights->bonds.row.begin(), weights->bonds.row.end(), end.slot) - 1;
+            const auto row =
+              std::upper_bound(weights->bonds.row.begin(), weights->bonds.row.end(), end.slot) - 1;
             const LocalIndex near = row - weights->bonds.row.begin();
-            const Motion m = motion(end.slot, near, weights->bonds.neighbour[end.slot], velocity_of);
+            const Motion     m    = motion(end.slot, near, weights->bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 const auto  &ends   = weights->force_weights()[a];
@@ -272,7 +273,8 @@ namespace perideal
               }
           }
         energy += family_energy(i, after) - family_energy(i, before);
-        const States state_after = weights->states(i, after.sum), state_before = weights->states(i, before.sum);
+        const States state_after  = weights->states(i, after.sum),
+                     state_before = weights->states(i, before.sum);
         for (unsigned int a = 0; a < n_sums; ++a)
           power -= state_after[a] * after.force_rate[a] - state_before[a] * before.force_rate[a];
       }
@@ -281,8 +283,8 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  std::vector<double> FamilyForce<dim, n_sums, own_force_weights>::share_of_family(
-    const std::vector<double> &volume) const
+  std::vector<double>
+  FamilyForce<dim, n_sums, own_force_weights>::share_of_family(const std::vector<double> &volume) const
   {
     std::vector<double> result(volume.size());
     for (std::size_t i = 0; i < result.size(); ++i)
@@ -302,11 +304,11 @@ namespace perideal
   template <int dim>
   std::unique_ptr<BondForce<dim>> create_bond_force(const std::shared_ptr<BondWeights<dim>> &weights)
   {
-    return visit_family_shape(
-      weights->shape, [&](const auto n_sums, const auto own) -> std::unique_ptr<BondForce<dim>> {
-        return std::make_unique<FamilyForce<dim, n_sums, own>>(
-          std::static_pointer_cast<FamilyWeights<dim, n_sums, own>>(weights));
-      });
+    return visit_family_shape(weights->shape,
+                              [&](const auto n_sums, const auto own) -> std::unique_ptr<BondForce<dim>> {
+                                return std::make_unique<FamilyForce<dim, n_sums, own>>(
+                                  std::static_pointer_cast<FamilyWeights<dim, n_sums, own>>(weights));
+                              });
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \

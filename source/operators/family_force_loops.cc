@@ -39,9 +39,9 @@ namespace perideal
         std::array<Lanes, n_sums> own = {};
         for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
           {
-            const LocalIndex *j = neighbour + k;
+            const LocalIndex *j       = neighbour + k;
             const Lanes       bond[4] = {
-              lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
             Lanes square, rest;
             sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
             const Lanes length = square_root(square);
@@ -101,12 +101,12 @@ namespace perideal
   template <bool can_break>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
   {
-    const BondList   &bonds     = weights->bonds;
-    const LocalIndex *neighbour = bonds.neighbour.data();
-    const NodeRecord *y         = positions.data();
-    NodeRecord       *f         = forces.data();
+    const BondList   &bonds        = weights->bonds;
+    const LocalIndex *neighbour    = bonds.neighbour.data();
+    const NodeRecord *y            = positions.data();
+    NodeRecord       *f            = forces.data();
     const auto       &pull_weights = weights->force_weights();
-    const Lanes       tiny      = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
+    const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
@@ -115,9 +115,9 @@ namespace perideal
         Lanes       own = {};
         for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
           {
-            const LocalIndex *j = neighbour + k;
+            const LocalIndex *j       = neighbour + k;
             const Lanes       bond[4] = {
-              lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
             Lanes square, rest, magnitude;
             sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
             const Lanes length = square_root(square + tiny);

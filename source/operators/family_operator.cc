@@ -12,9 +12,9 @@ namespace perideal
     this->counts      = weights->counts;
     this->reports     = weights->reports;
     this->partitioner = families->make_partitioner(dim);
-    state_partitioner = families->make_partitioner(n_sums);
     ghosted.reinit(this->partitioner);
-    ghosted_states.reinit(state_partitioner);
+    if (n_sums > 0)
+      ghosted_states.reinit(families->make_partitioner(n_sums));
 
     positions.resize(families->n_local(), NodeRecord{});
     displacements.resize(families->n_local(), NodeRecord{});

@@ -150,8 +150,11 @@ namespace perideal
                                                              const NodalVector &displacement) const
   {
     import_displacement(displacement);
-    sum_over_families();
-    turn_sums_into_states();
+    if constexpr (n_sums > 0)
+      {
+        sum_over_families();
+        turn_sums_into_states();
+      }
     sum_forces();
     // Bonds pull node i along +xi when stretched; K u resists with the opposite sign.
     for (LocalIndex i = 0; i < families->n_owned(); ++i)

@@ -87,8 +87,8 @@ namespace perideal
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyWeights<dim, n_sums, own_force_weights>::store(const LocalIndex                    i,
-                                                             const FamilyCoefficients           &coefficients,
-                                                             const std::vector<BondCursor::End> &ends)
+                                                            const FamilyCoefficients           &coefficients,
+                                                            const std::vector<BondCursor::End> &ends)
   {
     map[i]           = coefficients.map;
     this->reports[i] = coefficients.report;

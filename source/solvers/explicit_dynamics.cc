@@ -3,18 +3,8 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace perideal
 {
-  double EnergyBudget::drift() const
-  {
-    const double there = kinetic + strain + dissipated + damped;
-    const double scale = std::max({std::abs(external), std::abs(there), 1e-300});
-    return (external - there) / scale;
-  }
-
   template <int dim>
   ExplicitDynamics<dim>::ExplicitDynamics(BondForce<dim>            &bonds,
                                           const HeldNodes<dim>      &held,

@@ -2,6 +2,7 @@
 #ifndef perideal_application_scene_parameters_h
 #define perideal_application_scene_parameters_h
 
+#include <perideal/fracture/crack_tracker.h>
 #include <perideal/materials/models.h>
 #include <perideal/mesh/mesh_parameters.h>
 #include <perideal/neighbourhood/precrack.h>
@@ -66,6 +67,7 @@ namespace perideal
     LoadParameters       loads;
     InitialParameters    initial;
     PrecrackParameters   precracks;
+    CrackParameters      cracks;
     ComparisonParameters comparison;
 
     /// Declares all parameters, reads the values and checks their ranges.

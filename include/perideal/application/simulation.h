@@ -71,6 +71,8 @@ namespace perideal
     void   run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
     void   record_dynamics(const ExplicitDynamics<dim> &dynamics);
     void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    /// Share of the family behind broken bonds and precracks, by owned node.
+    std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
     double critical_stretch(const dealii::types::material_id id, const double horizon) const;
 
@@ -87,6 +89,8 @@ namespace perideal
     Timings                    timings;
     SceneState<dim>            scene;
     NodalVector                displacement, external_force;
+    /// Of dynamics so far, which their drift is measured by [J].
+    double largest_energy = 0;
 
     std::unique_ptr<History>          history;
     std::unique_ptr<FieldOutput<dim>> field_output;

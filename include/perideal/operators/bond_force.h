@@ -32,7 +32,8 @@ namespace perideal
     virtual void set_critical_stretch(const CriticalStretch &stretch) = 0;
 
     /// Takes out the bonds that @p cut (the positions of its ends) is true for, apart from damage.
-    virtual void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) = 0;
+    virtual void
+    cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) = 0;
 
     /// Force on the owned nodes [N]. Collective.
     /// @param displacement of owned nodes [m]
@@ -56,8 +57,8 @@ namespace perideal
     virtual double released_energy(const NodalVector &velocity, const double time_step) const = 0;
 
     /// Share of the family's volume behind broken bonds by owned node, and behind those cut at the beginning.
-    virtual std::vector<double> damage() const     = 0;
-    virtual std::vector<double> cut_share() const  = 0;
+    virtual std::vector<double> damage() const    = 0;
+    virtual std::vector<double> cut_share() const = 0;
 
     virtual std::size_t memory_consumption() const = 0;
 

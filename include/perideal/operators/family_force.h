@@ -23,9 +23,8 @@ namespace perideal
     explicit FamilyForce(const std::shared_ptr<Weights> &weights);
 
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void
-    cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
-    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
+    void compute(NodalVector &force, const NodalVector &displacement) override;
     GlobalIndex         n_broken_now() const override;
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;
@@ -70,7 +69,8 @@ namespace perideal
       double eps, rate;
     };
     template <typename Velocity>
-    Motion motion(const BondIndex slot, const LocalIndex i, const LocalIndex j, const Velocity &velocity) const;
+    Motion
+    motion(const BondIndex slot, const LocalIndex i, const LocalIndex j, const Velocity &velocity) const;
 
     double family_energy(const LocalIndex i, const FamilySums &sums) const;
 

@@ -54,8 +54,6 @@ namespace perideal
     std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> weights;
     std::shared_ptr<const Families<dim>>                                 families;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> state_partitioner;
-
     // Work space of vmult().
     dealii::AlignedVector<NodeRecord>               positions;
     mutable dealii::AlignedVector<NodeRecord>       displacements, forces;

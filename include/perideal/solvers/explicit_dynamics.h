@@ -16,8 +16,8 @@ namespace perideal
     /// Set free by breaking bonds; taken by damping; put in by loads and supports.
     double dissipated = 0, damped = 0, external = 0;
 
-    /// What is missing, over what was put in or is there.
-    double drift() const;
+    /// What was put in less what is there [J]: zero but for the error of the integration.
+    double imbalance() const { return external - (kinetic + strain + dissipated + damped); }
   };
 
   /**

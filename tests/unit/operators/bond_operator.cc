@@ -28,7 +28,8 @@ namespace
   std::vector<Variant> variants()
   {
     std::vector<Variant> result;
-    for (const auto &model : {std::pair<std::string, std::string>("ordinary", "energy"),
+    for (const auto &model : {std::pair<std::string, std::string>("bond based", "energy"),
+                              {"ordinary", "energy"},
                               {"extended ordinary", "consistent"},
                               {"extended ordinary", "paper"},
                               {"extended ordinary", "energy"}})
@@ -55,7 +56,8 @@ namespace
       parameters.form  = variant.form;
       parameters.resolve(dim);
       const auto moduli = [&](const dealii::types::material_id) {
-        return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
+        const ElasticConstants own = parameters.constants_of_model(constants);
+        return Moduli{own.bulk_modulus(), own.shear_modulus()};
       };
       if (parameters.is_consistent())
         bonds = std::make_shared<ConsistentOperator<dim>>(

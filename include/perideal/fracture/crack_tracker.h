@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_fracture_crack_tracker_h
+#define perideal_fracture_crack_tracker_h
+
+#include <perideal/nodes/nodes.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  class ParameterFile;
+
+  /// One subsection of "Cracks", as text.
+  struct CrackText
+  {
+    std::string name;
+    /// Where the crack starts, its direction so far, and the side it turns to: coordinates by commas.
+    std::string origin, direction, side;
+    /// Distances from the origin [m] between which its angle is measured, until a time [s].
+    double from = 0, to = 1e300, until = 1e300;
+    /// Distances from the origin [m] whose times of arrival are told.
+    std::vector<double> arrivals;
+  };
+
+  /// Section "Cracks".
+  struct CrackParameters
+  {
+    /// Damage from which on a node belongs to a crack [-].
+    double                 damage = 0.35;
+    std::vector<CrackText> cracks;
+
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+    /// @throws InputError on a damage that is no share.
+    void check() const;
+  };
+
+  /**
+   * Follows cracks through the times at which nodes became damaged. A crack is
+   * what is connected, cell by cell, with a node near its origin on its side.
+   */
+  template <int dim>
+  class CrackTracker
+  {
+  public:
+    /// @param initial damage by precracks of owned nodes; nodes with nearly as much as counts are left out
+    /// @throws InputError on text that is no point or direction.
+    CrackTracker(const CrackParameters     &parameters,
+                 const NodeCloud<dim>      &nodes,
+                 const std::vector<double> &initial);
+
+    /// Notes the nodes whose damage is large enough for the first time.
+    /// @param damage of owned nodes, by precracks and since
+    void update(const double time, const std::vector<double> &damage);
+
+    /**
+     * By crack: first_time [s]; angle [degrees] between its direction so far and the line of least squares
+     * through its nodes; speed [m/s], the slope of its reach; reach [m]; arrivals [s] at the distances asked
+     * for. What there is not is null. Collective; the result is that of rank 0.
+     */
+    nlohmann::ordered_json describe() const;
+
+  private:
+    struct Crack
+    {
+      CrackText              text;
+      dealii::Point<dim>     origin;
+      dealii::Tensor<1, dim> direction, side;
+    };
+    /// A damaged node.
+    struct Event
+    {
+      dealii::Point<dim> position;
+      double             time, spacing;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &position &time &spacing;
+      }
+    };
+
+    static nlohmann::ordered_json describe(const Crack &crack, std::vector<Event> events);
+    /// Those of the events, by time, that are connected with the origin.
+    static std::vector<Event> connected(const Crack &crack, const std::vector<Event> &events);
+
+    double                threshold;
+    const NodeCloud<dim> &nodes;
+    std::vector<Crack>    cracks;
+    /// Nodes that may become damaged yet.
+    std::vector<std::uint8_t> open;
+    std::vector<Event>        events;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_fracture_fragments_h
+#define perideal_fracture_fragments_h
+
+#include <perideal/neighbourhood/families.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The volumes of the pieces that cracks have made of a body, largest first [m^3]: sets of nodes
+   * with less than @p damaged damage that are connected from cell to cell, as far as cells that share a
+   * corner. Pieces of less than half a per cent of the body are left out. Collective.
+   * @param spacing, damage of owned nodes
+   */
+  template <int dim>
+  std::vector<double> find_fragments(const Families<dim>       &families,
+                                     const std::vector<double> &spacing,
+                                     const std::vector<double> &damage,
+                                     const double               damaged);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/models.h>
+#include <perideal/operators/bond_force.h>
+#include <perideal/operators/bond_operator.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace perideal;
+
+namespace
+{
+  using Variant = std::pair<std::string, std::string>;
+
+  const std::vector<Variant> variants = {{"bond based", "energy"},
+                                         {"ordinary", "energy"},
+                                         {"extended ordinary", "paper"},
+                                         {"extended ordinary", "energy"}};
+
+  /// A body with its nonlinear force.
+  template <int dim>
+  struct LooseBody
+  {
+    LooseBody(const Mesh<dim> &mesh, const Variant &variant)
+      : body(mesh)
+    {
+      ModelParameters parameters;
+      parameters.model = variant.first;
+      parameters.form  = variant.second;
+      parameters.resolve(dim);
+      const ElasticConstants constants{
+        1., 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
+      weights = weigh_bonds<dim>(
+        body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
+          const ElasticConstants own = parameters.constants_of_model(constants);
+          return Moduli{own.bulk_modulus(), own.shear_modulus()};
+        });
+      bonds = create_bond_force<dim>(weights);
+      bonds->initialize(force);
+      bonds->initialize(displacement);
+    }
+
+    using Function = std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>;
+
+    NodalVector field(const Function &function) const
+    {
+      NodalVector result(force);
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          result.local_element(dim * i + d) = function(body.nodes.position[i])[d];
+      return result;
+    }
+
+    const NodalVector &force_of(const Function &function)
+    {
+      displacement = field(function);
+      bonds->compute(force, displacement);
+      return force;
+    }
+
+    test::Body<dim>                   body;
+    std::shared_ptr<BondWeights<dim>> weights;
+    std::unique_ptr<BondForce<dim>>   bonds;
+    NodalVector                       force, displacement;
+  };
+
+  /// A field without pattern, of a size.
+  template <int dim>
+  typename LooseBody<dim>::Function rough(const double size, const unsigned int seed)
+  {
+    return [=](const dealii::Point<dim> &point) {
+      dealii::Tensor<1, dim> value;
+      for (int d = 0; d < dim; ++d)
+        value[d] = size * test::scatter(point, 5 * seed + d);
+      return value;
+    };
+  }
+
+  template <int dim>
+  void for_all(const std::function<void(LooseBody<dim> &, const Variant &)> &property)
+  {
+    for (const auto &mesh : test::make_boxes<dim>())
+      for (const Variant &variant : variants)
+        {
+          SCOPED_TRACE(variant.first + ", " + variant.second);
+          LooseBody<dim> loose(*mesh, variant);
+          property(loose, variant);
+        }
+  }
+
+  /// A rigid rotation by half a radian and a translation.
+  template <int dim>
+  dealii::Tensor<1, dim> rigid_motion(const dealii::Point<dim> &x)
+  {
+    dealii::Tensor<1, dim> u;
+    const double           c = std::cos(0.5), s = std::sin(0.5);
+    u[0] = c * x[0] - s * x[1] - x[0] + 3.;
+    u[1] = s * x[0] + c * x[1] - x[1] - 2.;
+    return u;
+  }
+
+  template <int dim>
+  void expect_invariants()
+  {
+    for_all<dim>([](LooseBody<dim> &loose, const Variant &variant) {
+      const double scale = loose.force_of(rough<dim>(1e-2, 1)).linfty_norm();
+      ASSERT_GT(scale, 0);
+
+      // Central pair forces: momentum and angular momentum.
+      dealii::Tensor<1, dim> sum;
+      dealii::Tensor<2, dim> moment;
+      for (LocalIndex i = 0; i < loose.body.nodes.size(); ++i)
+        {
+          dealii::Tensor<1, dim> f, y;
+          for (int d = 0; d < dim; ++d)
+            {
+              f[d] = loose.force.local_element(dim * i + d);
+              y[d] = loose.body.nodes.position[i][d] + loose.displacement.local_element(dim * i + d);
+            }
+          sum += f;
+          moment += outer_product(y, f) - outer_product(f, y);
+        }
+      sum    = dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+      moment = dealii::Utilities::MPI::sum(moment, MPI_COMM_WORLD);
+      EXPECT_LE(sum.norm(), 1e-12 * scale);
+      EXPECT_LE(moment.norm(), 1e-12 * scale);
+
+      // The force is the gradient of the energy, where the model says so.
+      if (loose.weights->symmetric)
+        {
+          const NodalVector f         = loose.force;
+          const NodalVector direction = loose.field(rough<dim>(1., 2));
+          const NodalVector middle    = loose.displacement;
+          const double      h         = 1e-6;
+          double            energy[2];
+          for (const int side : {0, 1})
+            {
+              NodalVector u = middle;
+              u.add(side == 0 ? -h : h, direction);
+              loose.bonds->compute(loose.force, u);
+              energy[side] = loose.bonds->strain_energy();
+            }
+          const double power = f * direction;
+          EXPECT_NEAR((energy[1] - energy[0]) / (2 * h), -power, 1e-6 * std::abs(power));
+        }
+
+      // At rest, and wherever the body is carried, nothing pulls.
+      EXPECT_LE(loose.force_of(rigid_motion<dim>).linfty_norm(), 1e-11 * scale);
+      EXPECT_NEAR(loose.bonds->strain_energy(), 0., 1e-20);
+
+      // Small displacements: the linear operator.
+      const double      small = 1e-8;
+      NodalVector       linear(loose.force);
+      const NodalVector u = loose.field(rough<dim>(small, 3));
+      create_bond_operator<dim>(std::shared_ptr<const BondWeights<dim>>(loose.weights))->vmult(linear, u);
+      loose.bonds->compute(loose.force, u);
+      loose.force += linear;
+      EXPECT_LE(loose.force.linfty_norm(), 1e-5 * linear.linfty_norm()) << variant.first;
+    });
+  }
+
+  /// What breaking releases, from the broken bonds alone, is what two whole evaluations differ by.
+  template <int dim>
+  void expect_released_energy()
+  {
+    for (const auto &mesh : test::make_boxes<dim>())
+      for (const Variant &variant : variants)
+        {
+          SCOPED_TRACE(variant.first + ", " + variant.second);
+          LooseBody<dim> whole(*mesh, variant), breaking(*mesh, variant);
+          const double   spacing = breaking.body.nodes.size() > 0 ? breaking.body.nodes.spacing[0] : 0.;
+          const auto     motion  = rough<dim>(0.05 * dealii::Utilities::MPI::max(spacing, MPI_COMM_WORLD), 4);
+          breaking.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.04; });
+          whole.force_of(motion);
+          breaking.force_of(motion);
+          const GlobalIndex n_broken = breaking.bonds->n_broken_now();
+          ASSERT_GT(n_broken, 10u);
+          ASSERT_LT(n_broken, breaking.body.families->n_bonds());
+
+          const double      dt       = 0.1;
+          const NodalVector velocity = whole.field(rough<dim>(1., 5));
+          const double      energy   = whole.bonds->strain_energy() - breaking.bonds->strain_energy();
+          const double      expected = energy - 0.5 * dt * (velocity * breaking.force - velocity * whole.force);
+          EXPECT_NEAR(breaking.bonds->released_energy(velocity, dt), expected, 1e-10 * std::abs(energy));
+
+          // For good: back at rest they stay broken, and break no more.
+          breaking.bonds->compute(breaking.force, whole.field(rough<dim>(0., 4)));
+          EXPECT_EQ(breaking.bonds->n_broken_now(), 0u);
+          double damage = 0;
+          for (const double share : breaking.bonds->damage())
+            damage = std::max(damage, share);
+          EXPECT_GT(dealii::Utilities::MPI::max(damage, MPI_COMM_WORLD), 0.05);
+          EXPECT_LE(dealii::Utilities::MPI::max(damage, MPI_COMM_WORLD), 1. + 1e-12);
+        }
+  }
+} // namespace
+
+TEST(BondForce, BalancesFollowsTheEnergyAndLinearises)
+{
+  expect_invariants<2>();
+  expect_invariants<3>();
+}
+
+TEST(BondForce, TellsWhatBreakingReleases)
+{
+  expect_released_energy<2>();
+  expect_released_energy<3>();
+}
+
+/// Cut bonds carry nothing: the halves of a body that is cut through move freely.
+TEST(BondForce, CutsBondsApartFromDamage)
+{
+  const auto mesh = test::make_box<2>({8, 7}, {1., 1.}, 0.2);
+  for (const Variant &variant : variants)
+    {
+      LooseBody<2> loose(*mesh, variant);
+      loose.bonds->cut(
+        [](const dealii::Point<2> &a, const dealii::Point<2> &b) { return (a[0] < 0.5) != (b[0] < 0.5); });
+      const auto apart = [](const dealii::Point<2> &x) {
+        return dealii::Tensor<1, 2>(dealii::Point<2>(x[0] < 0.5 ? 0. : 0.3, 0.));
+      };
+      EXPECT_LE(loose.force_of(apart).linfty_norm(), 1e-13);
+      for (const double share : loose.bonds->damage())
+        EXPECT_EQ(share, 0.);
+      double cut = 0;
+      for (const double share : loose.bonds->cut_share())
+        cut = std::max(cut, share);
+      EXPECT_GT(dealii::Utilities::MPI::max(cut, MPI_COMM_WORLD), 0.3);
+    }
+}
