@@ -17,6 +17,8 @@ namespace perideal
   {
     make_mesh();
     make_nodes_and_families();
+    if (parameters.solver.is_dynamic())
+      prepare_dynamics();
     weigh_bonds();
     screen << banner(parameters, scene);
 

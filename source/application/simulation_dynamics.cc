@@ -55,9 +55,7 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::make_cracks_and_limits()
   {
-    std::vector<Precrack<dim>> cracks;
-    for (const PrecrackText &text : parameters.precracks.cracks)
-      cracks.emplace_back(text);
+    const auto &cracks = scene.precracks;
     if (!cracks.empty())
       scene.force->cut([&](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
         return std::any_of(
@@ -75,8 +73,24 @@ namespace perideal
   }
 
   template <int dim>
+  void Simulation<dim>::prepare_dynamics()
+  {
+    const char *axes[] = {"x", "y", "z"};
+    for (int d = 0; d < dim; ++d)
+      scene.initial_velocity[d] = SpaceTimeFunction<dim>(parameters.initial.velocity[d],
+                                                         std::string("Initial conditions/v_") + axes[d]);
+    if (dim == 2 && !parameters.initial.velocity[2].empty())
+      throw InputError("a two-dimensional scene has no z component").parameter("Initial conditions/v_z");
+    for (const PrecrackText &text : parameters.precracks.cracks)
+      scene.precracks.emplace_back(text);
+    if (!parameters.cracks.cracks.empty())
+      scene.crack_tracker = std::make_unique<CrackTracker<dim>>(parameters.cracks, *scene.nodes);
+  }
+
+  template <int dim>
   void Simulation<dim>::run_dynamics()
   {
+    prepare_dynamics();
     weigh_bonds();
     const double        time_step = choose_time_step();
     std::vector<double> mass(scene.nodes->size());
@@ -107,15 +121,11 @@ namespace perideal
                                    time_step,
                                    verlet ? ExplicitDynamics<dim>::Start::velocity_verlet :
                                             ExplicitDynamics<dim>::Start::symplectic_euler);
-    const char           *axes[] = {"x", "y", "z"};
     for (int d = 0; d < dim; ++d)
-      {
-        const SpaceTimeFunction<dim> initial(parameters.initial.velocity[d],
-                                             std::string("Initial conditions/v_") + axes[d]);
-        if (initial.is_present())
-          for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
-            dynamics.velocity.local_element(dim * i + d) = initial.value(scene.nodes->position[i], 0.);
-      }
+      if (scene.initial_velocity[d].is_present())
+        for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+          dynamics.velocity.local_element(dim * i + d) =
+            scene.initial_velocity[d].value(scene.nodes->position[i], 0.);
     try
       {
         run_steps(dynamics, time_step);
@@ -141,11 +151,11 @@ namespace perideal
       scene.point_forces.add(scene.loads, dynamics.time(), external_force);
     };
     set_loads();
-    const bool        loads_change   = scene.loads.forces_depend_on_time();
-    unsigned int      frames_written = 0;
-    CrackTracker<dim> cracks(parameters.cracks, *scene.nodes, scene.force->cut_share());
-    const bool        follows_cracks = !parameters.cracks.cracks.empty();
-    double            first_break    = -1;
+    const bool   loads_change   = scene.loads.forces_depend_on_time();
+    unsigned int frames_written = 0;
+    double       first_break    = -1;
+    if (scene.crack_tracker)
+      scene.crack_tracker->start(scene.force->cut_share());
     for (unsigned int n = 0; n <= n_steps; ++n)
       {
         {
@@ -159,8 +169,8 @@ namespace perideal
             first_break                           = dynamics.time();
             summary["damage"]["first_break_time"] = first_break;
           }
-        if (follows_cracks && dynamics.n_broken_now() > 0)
-          cracks.update(dynamics.time(), total_damage());
+        if (scene.crack_tracker && dynamics.n_broken_now() > 0)
+          scene.crack_tracker->update(dynamics.time(), total_damage());
         summary["solver"]["steps"] = n;
         if (n % parameters.history_steps == 0 || n == n_steps)
           record_dynamics(dynamics);
@@ -176,8 +186,8 @@ namespace perideal
             dynamics.advance();
           }
       }
-    if (follows_cracks)
-      summary["cracks"] = cracks.describe();
+    if (scene.crack_tracker)
+      summary["cracks"] = scene.crack_tracker->describe();
     if (can_break(parameters))
       summary["damage"]["fragments"] =
         find_fragments(*scene.families, scene.nodes->spacing, total_damage(), parameters.cracks.damage);
@@ -268,6 +278,7 @@ namespace perideal
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template double Simulation<dim>::critical_stretch(const dealii::types::material_id, const double) const;   \
+  template void   Simulation<dim>::prepare_dynamics();                                                       \
   template void   Simulation<dim>::run_dynamics();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -20,8 +20,10 @@ namespace perideal
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Cracks");
-    prm.add_parameter(
-      "Damage", damage, "Share of broken bonds from which on a node belongs to a crack, 0 < share < 1 [-]", Double());
+    prm.add_parameter("Damage",
+                      damage,
+                      "Share of broken bonds from which on a node belongs to a crack, 0 < share < 1 [-]",
+                      Double());
     for (const std::string &name : file.subsections("Cracks"))
       {
         cracks.emplace_back();
@@ -30,19 +32,26 @@ namespace perideal
     for (CrackText &crack : cracks)
       {
         prm.enter_subsection(crack.name);
-        prm.add_parameter("Origin", crack.origin, "Where the crack starts: coordinates [m], separated by commas");
-        prm.add_parameter("Direction",
-                          crack.direction,
-                          "Direction of the crack so far, from which angles are measured: components, separated "
-                          "by commas; empty: the x axis");
-        prm.add_parameter("Side",
-                          crack.side,
-                          "Vector towards the nodes that count as this crack: components, separated by commas; "
-                          "empty: all");
-        prm.add_parameter("Measure from", crack.from, "Smallest distance from the origin of nodes measured [m]", Double(0));
-        prm.add_parameter("Measure to", crack.to, "Largest distance from the origin of nodes measured [m]", Double(0));
         prm.add_parameter(
-          "Measure until", crack.until, "Latest time of damage of nodes whose angle is measured [s]", Double(0));
+          "Origin", crack.origin, "Where the crack starts: coordinates [m], separated by commas");
+        prm.add_parameter(
+          "Direction",
+          crack.direction,
+          "Direction of the crack so far, from which angles are measured: components, separated "
+          "by commas; empty: the x axis");
+        prm.add_parameter(
+          "Side",
+          crack.side,
+          "Vector towards the nodes that count as this crack: components, separated by commas; "
+          "empty: all");
+        prm.add_parameter(
+          "Measure from", crack.from, "Smallest distance from the origin of nodes measured [m]", Double(0));
+        prm.add_parameter(
+          "Measure to", crack.to, "Largest distance from the origin of nodes measured [m]", Double(0));
+        prm.add_parameter("Measure until",
+                          crack.until,
+                          "Latest time of damage of nodes whose angle is measured [s]",
+                          Double(0));
         prm.add_parameter("Arrivals",
                           crack.arrivals,
                           "Distances from the origin whose times of arrival are told [m]",
@@ -55,16 +64,15 @@ namespace perideal
   void CrackParameters::check() const
   {
     if (!(damage > 0 && damage < 1))
-      throw InputError("the damage of a crack is a share").parameter("Cracks/Damage").allowed("0 < damage < 1");
+      throw InputError("the damage of a crack is a share")
+        .parameter("Cracks/Damage")
+        .allowed("0 < damage < 1");
   }
 
   template <int dim>
-  CrackTracker<dim>::CrackTracker(const CrackParameters     &parameters,
-                                  const NodeCloud<dim>      &nodes,
-                                  const std::vector<double> &initial)
+  CrackTracker<dim>::CrackTracker(const CrackParameters &parameters, const NodeCloud<dim> &nodes)
     : threshold(parameters.damage)
     , nodes(nodes)
-    , open(initial.size())
   {
     for (const CrackText &text : parameters.cracks)
       {
@@ -79,10 +87,18 @@ namespace perideal
         if (!text.side.empty())
           crack.side = read_point<dim>(text.side, section + "Side");
         if (crack.direction.norm() == 0)
-          throw InputError("a direction has no length").parameter(section + "Direction").given(text.direction);
+          throw InputError("a direction has no length")
+            .parameter(section + "Direction")
+            .given(text.direction);
         crack.direction /= crack.direction.norm();
         cracks.push_back(crack);
       }
+  }
+
+  template <int dim>
+  void CrackTracker<dim>::start(const std::vector<double> &initial)
+  {
+    open.resize(initial.size());
     // Beside a precrack a few broken bonds more would count as a crack.
     for (std::size_t i = 0; i < open.size(); ++i)
       open[i] = initial[i] < 6. / 7. * threshold;
@@ -100,8 +116,8 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<typename CrackTracker<dim>::Event> CrackTracker<dim>::connected(const Crack              &crack,
-                                                                              const std::vector<Event> &events)
+  std::vector<typename CrackTracker<dim>::Event>
+  CrackTracker<dim>::connected(const Crack &crack, const std::vector<Event> &events)
   {
     namespace bgi = boost::geometry::index;
     std::vector<dealii::Point<dim>> positions;
@@ -122,8 +138,8 @@ namespace perideal
         const Event &from = events[front.back()];
         front.pop_back();
         // Cells that share a corner are up to sqrt(dim) spacings apart.
-        const double            reach = 1.1 * std::sqrt(double(dim)) * from.spacing;
-        dealii::Tensor<1, dim>  corner;
+        const double           reach = 1.1 * std::sqrt(double(dim)) * from.spacing;
+        dealii::Tensor<1, dim> corner;
         for (int d = 0; d < dim; ++d)
           corner[d] = reach;
         const dealii::BoundingBox<dim> box({from.position - corner, from.position + corner});

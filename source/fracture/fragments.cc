@@ -23,7 +23,7 @@ namespace perideal
     for (unsigned int changed = 1; changed > 0;)
       {
         label.update_ghost_values();
-        changed             = 0;
+        changed              = 0;
         bool changed_in_here = true;
         while (changed_in_here)
           {

@@ -8,8 +8,10 @@
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/boundary/point_forces.h>
 #include <perideal/fem/elastic_fem.h>
+#include <perideal/fracture/crack_tracker.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
+#include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/consistent_operator.h>
@@ -20,6 +22,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -63,8 +66,11 @@ namespace perideal
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
     std::unique_ptr<LinearSolver<dim>>        linear_solver;
 
-    /// Dynamics alone have it.
-    std::unique_ptr<BondForce<dim>> force;
+    // Dynamics alone have these.
+    std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
+    std::vector<Precrack<dim>>              precracks;
+    std::unique_ptr<CrackTracker<dim>>      crack_tracker;
+    std::unique_ptr<BondForce<dim>>         force;
 
     /// Displacement of the nodes after the last step, rigid-body motions removed; in dynamics their velocity.
     NodalField<dim> displacement, velocity;

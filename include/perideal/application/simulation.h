@@ -66,6 +66,7 @@ namespace perideal
     void finish(const std::string &status);
 
     void   run_dynamics();
+    void   prepare_dynamics();
     double choose_time_step();
     void   make_cracks_and_limits();
     void   run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);

@@ -47,11 +47,12 @@ namespace perideal
   class CrackTracker
   {
   public:
-    /// @param initial damage by precracks of owned nodes; nodes with nearly as much as counts are left out
+    /// The nodes must outlive this object.
     /// @throws InputError on text that is no point or direction.
-    CrackTracker(const CrackParameters     &parameters,
-                 const NodeCloud<dim>      &nodes,
-                 const std::vector<double> &initial);
+    CrackTracker(const CrackParameters &parameters, const NodeCloud<dim> &nodes);
+
+    /// @param initial damage by precracks of owned nodes; nodes with nearly as much as counts are left out
+    void start(const std::vector<double> &initial);
 
     /// Notes the nodes whose damage is large enough for the first time.
     /// @param damage of owned nodes, by precracks and since

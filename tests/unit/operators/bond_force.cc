@@ -184,7 +184,7 @@ namespace
           const double      dt       = 0.1;
           const NodalVector velocity = whole.field(rough<dim>(1., 5));
           const double      energy   = whole.bonds->strain_energy() - breaking.bonds->strain_energy();
-          const double      expected = energy - 0.5 * dt * (velocity * breaking.force - velocity * whole.force);
+          const double expected = energy - 0.5 * dt * (velocity * breaking.force - velocity * whole.force);
           EXPECT_NEAR(breaking.bonds->released_energy(velocity, dt), expected, 1e-10 * std::abs(energy));
 
           // For good: back at rest they stay broken, and break no more.

@@ -14,7 +14,10 @@ namespace
   /// A body of unit modulus and density, free or held.
   struct MovingBody
   {
-    MovingBody(const Mesh<2> &mesh, const std::string &model, const LoadParameters &text, const double horizon)
+    MovingBody(const Mesh<2>        &mesh,
+               const std::string    &model,
+               const LoadParameters &text,
+               const double          horizon)
       : body(mesh, horizon)
       , loads(text)
       , held(find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size())
@@ -33,10 +36,10 @@ namespace
       bonds->initialize(no_load);
     }
 
-    ExplicitDynamics<2> dynamics(const double                     time_step,
-                                 const ExplicitDynamics<2>::Start start =
-                                   ExplicitDynamics<2>::Start::velocity_verlet,
-                                 const double damping = 0)
+    ExplicitDynamics<2>
+    dynamics(const double                     time_step,
+             const ExplicitDynamics<2>::Start start   = ExplicitDynamics<2>::Start::velocity_verlet,
+             const double                     damping = 0)
     {
       return ExplicitDynamics<2>(*bonds, held, loads, mass, damping, time_step, start);
     }
@@ -54,12 +57,12 @@ namespace
 /// x_n = v/(w sqrt(1 - (w dt/2)^2)) sin(n 2 asin(w dt/2)).
 TEST(ExplicitDynamics, OscillatesAsTwoNodesDo)
 {
-  const auto mesh = test::make_box<2>({2, 1}, {2., 1.}, 0.);
-  MovingBody moving(*mesh, "bond based", {}, 1.5);
+  const auto   mesh = test::make_box<2>({2, 1}, {2., 1.}, 0.);
+  MovingBody   moving(*mesh, "bond based", {}, 1.5);
   const double dt = 0.3, v = 1e-2;
 
   // The spring: the force of a stretched pair.
-  auto probe                            = moving.dynamics(dt);
+  auto probe                          = moving.dynamics(dt);
   probe.displacement.local_element(0) = -0.5e-2;
   probe.displacement.local_element(2) = 0.5e-2;
   NodalVector force(probe.displacement);
@@ -67,7 +70,7 @@ TEST(ExplicitDynamics, OscillatesAsTwoNodesDo)
   const double w = std::sqrt(2 * force.local_element(0) / 1e-2);
   ASSERT_GT(w, 0.5);
 
-  auto dynamics                       = moving.dynamics(dt);
+  auto dynamics                      = moving.dynamics(dt);
   dynamics.velocity.local_element(0) = -0.5 * v;
   dynamics.velocity.local_element(2) = 0.5 * v;
   const double half_angle            = std::asin(0.5 * w * dt);
@@ -142,9 +145,9 @@ TEST(ExplicitDynamics, SendsWavesAtTheirSpeed)
   push.name = push.boundary = "0";
   push.velocity[0]          = "1e-4*min(t/10, 1)";
   text.conditions           = {push};
-  MovingBody   moving(*mesh, "extended ordinary", text, 3.01);
-  auto         dynamics = moving.dynamics(0.3);
-  double       front[2];
+  MovingBody moving(*mesh, "extended ordinary", text, 3.01);
+  auto       dynamics = moving.dynamics(0.3);
+  double     front[2];
   for (const int k : {0, 1})
     {
       const double time = k == 0 ? 60 : 150;
