@@ -44,6 +44,10 @@ namespace perideal
           crack.side,
           "Vector towards the nodes that count as this crack: components, separated by commas; "
           "empty: all");
+        prm.add_parameter("Radius",
+                          crack.radius,
+                          "Largest distance from the origin of nodes that count as this crack [m]",
+                          Double(0));
         prm.add_parameter(
           "Measure from", crack.from, "Smallest distance from the origin of nodes measured [m]", Double(0));
         prm.add_parameter(
@@ -152,8 +156,12 @@ namespace perideal
       }
     std::vector<Event> result;
     for (std::size_t k = 0; k < events.size(); ++k)
-      if (found[k] && (crack.side.norm() == 0 || (events[k].position - crack.origin) * crack.side > 0))
-        result.push_back(events[k]);
+      {
+        const auto from_origin = events[k].position - crack.origin;
+        if (found[k] && from_origin.norm() <= crack.text.radius &&
+            (crack.side.norm() == 0 || from_origin * crack.side > 0))
+          result.push_back(events[k]);
+      }
     return result;
   }
 

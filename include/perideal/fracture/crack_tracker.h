@@ -21,6 +21,8 @@ namespace perideal
     std::string name;
     /// Where the crack starts, its direction so far, and the side it turns to: coordinates by commas.
     std::string origin, direction, side;
+    /// Largest distance of its nodes from the origin [m].
+    double radius = 1e300;
     /// Distances from the origin [m] between which its angle is measured, until a time [s].
     double from = 0, to = 1e300, until = 1e300;
     /// Distances from the origin [m] whose times of arrival are told.
