@@ -7,6 +7,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perideal
 {
@@ -93,6 +94,15 @@ namespace perideal
                       "cells, or Material/Form = energy" :
                       " families miss a moment condition: uniform strain is not exact there (corners, thin "
                       "parts, flat cells, small horizon); see the field \"family status\""));
+    if (parameters.model.model == "bond based")
+      for (const auto &constants : scene.constants)
+        {
+          const double own = parameters.model.constants_of_model(constants.second).poisson_ratio;
+          if (std::abs(own - constants.second.poisson_ratio) > 1e-3)
+            result.push_back("bond-based materials have a Poisson's ratio of " + short_number(own) +
+                             " here: " + scene.mesh->material_name(constants.first) + " is not given its " +
+                             short_number(constants.second.poisson_ratio));
+        }
     if (parameters.model.model == "ordinary")
       result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
     if (consistent && (parameters.loads.displacement_treatment == "layer" ||

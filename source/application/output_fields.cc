@@ -112,7 +112,7 @@ namespace perideal
          {"error", [](Scene s, Output o) { add_error(s, o); }},
          {"dilatation",
           [](Scene s, Output o) {
-            const auto dilatation = s.bonds->dilatation();
+            const auto dilatation = s.force ? s.force->dilatation() : s.bonds->dilatation();
             add_family_scalar(
               s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
           }},

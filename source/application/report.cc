@@ -213,6 +213,61 @@ namespace perideal
     out << line.str() << "      " << std::flush;
   }
 
+  StepLine::StepLine(std::ostream &out, const bool is_visible, const unsigned int n_steps)
+    : out(out)
+    , is_visible(is_visible)
+    , n_steps(n_steps)
+    , start(seconds_now())
+    , last_print(start)
+  {
+  }
+
+  StepLine::~StepLine()
+  {
+    if (printed)
+      out << std::endl;
+  }
+
+  void StepLine::operator()(const unsigned int step, const GlobalIndex broken_bonds)
+  {
+    const double now = seconds_now();
+    if (!is_visible || now - last_print < 1 || step == 0)
+      return;
+    last_print = now;
+    printed    = true;
+    std::ostringstream line;
+    line << "\rstep " << step << " of " << n_steps << ", " << grouped(broken_bonds) << " broken bonds, about "
+         << short_number((now - start) * (n_steps - step) / step) << " s left";
+    out << line.str() << "      " << std::flush;
+  }
+
+  std::string describe_motion(const Json &summary)
+  {
+    std::ostringstream out;
+    const Json        &energy = summary.at("energy");
+    const auto         number = [](const Json &value, const double unit) {
+      return value.is_number() ? short_number(value.get<double>() * unit) : std::string("-");
+    };
+    out << "energy      " << number(energy["kinetic"], 1) << " J kinetic, " << number(energy["strain"], 1)
+        << " J strain, " << number(energy["dissipated"], 1) << " J dissipated, "
+        << number(energy["external"], 1) << " J put in; error " << number(energy["drift"], 1) << '\n';
+    if (std::abs(energy["drift"].get<double>()) > 0.01)
+      out << "warning     the energy is off by more than 1 %: take a smaller time step, or a form that has "
+             "an energy\n";
+    const Json &damage = summary.at("damage");
+    if (damage["broken_bonds"].get<GlobalIndex>() > 0)
+      out << "damage      " << grouped(damage["broken_bonds"].get<GlobalIndex>())
+          << " broken bonds, the first at " << number(damage["first_break_time"], 1) << " s; "
+          << damage["fragments"].size() << " piece(s)\n";
+    if (summary.contains("cracks"))
+      for (const auto &crack : summary["cracks"].items())
+        out << "crack       " << crack.key() << ": from " << number(crack.value()["first_time"], 1)
+            << " s on, reach " << number(crack.value()["reach"], 1) << " m, angle "
+            << number(crack.value()["angle"], 1) << " degrees, speed " << number(crack.value()["speed"], 1)
+            << " m/s\n";
+    return out.str();
+  }
+
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &);            \
   template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);                       \

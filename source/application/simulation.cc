@@ -275,6 +275,8 @@ namespace perideal
       screen << "solved      " << summary["solver"]["iterations"].back() << " iterations, strain energy "
              << short_number(summary["energy"]["strain"].template get<double>()) << " J\n"
              << describe_boundary_stress(summary["boundary_stress"]);
+    if (status == "done" && parameters.solver.is_dynamic())
+      screen << describe_motion(summary);
     if (result.contains("errors") && !result["errors"].empty())
       screen << '\n' << error_table(result["errors"]);
     screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;

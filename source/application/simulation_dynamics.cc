@@ -151,9 +151,11 @@ namespace perideal
       scene.point_forces.add(scene.loads, dynamics.time(), external_force);
     };
     set_loads();
-    const bool   loads_change   = scene.loads.forces_depend_on_time();
-    unsigned int frames_written = 0;
-    double       first_break    = -1;
+    const bool        loads_change = scene.loads.forces_depend_on_time();
+    const GlobalIndex n_bonds      = scene.families->n_bonds();
+    StepLine          progress(screen.get_stream(), screen.is_active(), n_steps);
+    unsigned int      frames_written = 0;
+    double            first_break    = -1;
     if (scene.crack_tracker)
       scene.crack_tracker->start(scene.force->cut_share());
     for (unsigned int n = 0; n <= n_steps; ++n)
@@ -171,6 +173,12 @@ namespace perideal
           }
         if (scene.crack_tracker && dynamics.n_broken_now() > 0)
           scene.crack_tracker->update(dynamics.time(), total_damage());
+        if (dynamics.n_broken_now() > 0 && dynamics.n_broken() == n_bonds)
+          throw ComputationError(
+            "every bond is broken at step " + std::to_string(n) + ", t = " + short_number(dynamics.time()) +
+            " s\n  likely cause: a critical stretch or fracture energy that is too small, or "
+            "loads that are too large");
+        progress(n, dynamics.n_broken());
         summary["solver"]["steps"] = n;
         if (n % parameters.history_steps == 0 || n == n_steps)
           record_dynamics(dynamics);

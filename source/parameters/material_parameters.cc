@@ -27,8 +27,7 @@ namespace perideal
       };
       declare("Young modulus", properties.young_modulus, "Young's modulus E > 0 [Pa]");
       declare("Poisson ratio", properties.poisson_ratio, "Poisson's ratio, -1 < nu < 0.5 [-]");
-      declare(
-        "Density", properties.density, "Mass density > 0 [kg/m^3], of dynamics");
+      declare("Density", properties.density, "Mass density > 0 [kg/m^3], of dynamics");
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "

@@ -55,6 +55,27 @@ namespace perideal
     double        start, last_print;
     bool          printed = false;
   };
+
+  /// A line on the terminal that tells how far dynamics have come, once a second.
+  class StepLine
+  {
+  public:
+    StepLine(std::ostream &out, const bool is_visible, const unsigned int n_steps);
+    ~StepLine();
+
+    void operator()(const unsigned int step, const GlobalIndex broken_bonds);
+
+  private:
+    std::ostream &out;
+    bool          is_visible;
+    unsigned int  n_steps;
+    double        start, last_print;
+    bool          printed = false;
+  };
+
+  /// Energies, broken bonds and cracks at the end of dynamics, and a warning where the energy does not
+  /// balance. @param summary as in summary.json
+  std::string describe_motion(const nlohmann::ordered_json &summary);
 } // namespace perideal
 
 #endif

@@ -56,6 +56,9 @@ namespace perideal
      */
     virtual double released_energy(const NodalVector &velocity, const double time_step) const = 0;
 
+    /// Dilatation at the last compute() by owned node; 0 where the model needs none.
+    virtual std::vector<double> dilatation() const = 0;
+
     /// Share of the family's volume behind broken bonds by owned node, and behind those cut at the beginning.
     virtual std::vector<double> damage() const    = 0;
     virtual std::vector<double> cut_share() const = 0;

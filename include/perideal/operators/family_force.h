@@ -28,6 +28,13 @@ namespace perideal
     GlobalIndex         n_broken_now() const override;
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double> dilatation() const override
+    {
+      if constexpr (n_sums == 0)
+        return std::vector<double>(families->n_owned(), 0.);
+      else
+        return {sums[0].begin(), sums[0].begin() + families->n_owned()};
+    }
     std::vector<double> damage() const override { return share_of_family(broken_volume); }
     std::vector<double> cut_share() const override { return share_of_family(cut_volume); }
     std::size_t         memory_consumption() const override;
