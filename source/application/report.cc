@@ -79,7 +79,11 @@ namespace perideal
     if (!can_break(parameters))
       result["bond state (nothing can break)"] = bonds;
     if (parameters.solver.is_dynamic())
-      result["matrix, preconditioner (explicit)"] = 1;
+      {
+        result["matrix, preconditioner (explicit)"] = 1;
+        if (scene.force)
+          result["bonds at rest"] = 1. - scene.force->share_computed();
+      }
     else
       {
         result["mass and velocity (statics)"]            = 2 * dim * nodes;

@@ -17,6 +17,7 @@ namespace perideal
     : weights(weights)
     , families(weights->families)
     , rest_length(weights->bonds.n_slots(), 0.)
+    , regions(*families, weights->bonds, n_sums > 0)
   {
     this->partitioner = families->make_partitioner(dim);
     ghosted.reinit(this->partitioner);
@@ -37,10 +38,8 @@ namespace perideal
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (bonds.neighbour[slot] != i)
-          {
-            rest_length[slot] = families->position[i].distance(families->position[bonds.neighbour[slot]]);
-            lose(slot, i, family_volume);
-          }
+          lose(slot, i, family_volume);
+    measure_rest_lengths();
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

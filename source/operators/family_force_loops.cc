@@ -20,7 +20,38 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         positions[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
+    // A displacement that rounding takes from the position has moved nothing.
+    regions.update([&](const LocalIndex i) {
+      for (int d = 0; d < dim; ++d)
+        if (positions[i].value[d] != families->position[i][d])
+          return true;
+      return false;
+    });
     ghosted.zero_out_ghost_values();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::measure_rest_lengths()
+  {
+    // Operation by operation as in the loops below: a body at rest has no extension, not even by rounding.
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        positions[i].value[d] = families->position[i][d];
+    const BondList   &bonds = weights->bonds;
+    const NodeRecord *y     = positions.data();
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+        {
+          const LocalIndex *j       = bonds.neighbour.data() + k;
+          const Lanes       yi      = lanes(y[i]);
+          const Lanes       bond[4] = {
+                  lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+          Lanes square;
+          sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+          const Lanes length = square_root(square);
+          for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+            rest_length[k + lane] = length[lane];
+        }
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -35,6 +66,11 @@ namespace perideal
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
+        if (i % RestRegions::block_size == 0 && !regions.sums_awake(i / RestRegions::block_size))
+          {
+            i += RestRegions::block_size - 1;
+            continue;
+          }
         const Lanes               yi  = lanes(y[i]);
         std::array<Lanes, n_sums> own = {};
         for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
@@ -111,6 +147,11 @@ namespace perideal
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
+        if (i % RestRegions::block_size == 0 && !regions.forces_awake(i / RestRegions::block_size))
+          {
+            i += RestRegions::block_size - 1;
+            continue;
+          }
         const Lanes yi  = lanes(y[i]);
         Lanes       own = {};
         for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
@@ -177,6 +218,7 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::measure_rest_lengths();                         \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE

@@ -63,6 +63,9 @@ namespace perideal
     virtual std::vector<double> damage() const    = 0;
     virtual std::vector<double> cut_share() const = 0;
 
+    /// Mean share of the bonds that compute() has looked at; the others were at rest. Collective.
+    virtual double share_computed() const = 0;
+
     virtual std::size_t memory_consumption() const = 0;
 
     /// A vector over owned nodes.

@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/bond_force.h>
+#include <perideal/operators/rest_regions.h>
 
 #include <deal.II/base/aligned_vector.h>
 
@@ -37,6 +38,7 @@ namespace perideal
     }
     std::vector<double> damage() const override { return share_of_family(broken_volume); }
     std::vector<double> cut_share() const override { return share_of_family(cut_volume); }
+    double              share_computed() const override { return regions.share_awake(); }
     std::size_t         memory_consumption() const override;
 
   private:
@@ -58,6 +60,7 @@ namespace perideal
       States sum = {}, force = {}, force_rate = {};
     };
 
+    void measure_rest_lengths();
     void import_positions(const NodalVector &displacement);
     /// The passes over all bonds; @p can_break: with the check of lengths.
     template <bool can_break>
@@ -91,6 +94,7 @@ namespace perideal
 
     /// Lengths at rest and largest ones [m] by slot; the latter empty where nothing breaks.
     std::vector<double> rest_length, largest_length;
+    RestRegions         regions;
     std::vector<double> family_volume, broken_volume, cut_volume;
 
     std::vector<BrokenBond> broken_now;

@@ -23,9 +23,9 @@ namespace
 /// A crack at 30 degrees that runs at 2 m/s, and a damaged spot elsewhere that is none of it.
 TEST(CrackTracker, MeasuresAngleSpeedAndArrivals)
 {
-  const auto      mesh = test::make_box<2>({80, 80}, {1., 1.}, 0.);
-  const Nodes<2>  nodes(*mesh, NodeParameters{3.01});
-  CrackText       text;
+  const auto     mesh = test::make_box<2>({80, 80}, {1., 1.}, 0.);
+  const Nodes<2> nodes(*mesh, NodeParameters{3.01});
+  CrackText      text;
   text.name     = "c";
   text.origin   = "0.2, 0.2";
   text.side     = "0, 1";
@@ -85,16 +85,18 @@ TEST(CrackTracker, WrongTextIsAnError)
   const Nodes<2> nodes(*mesh, NodeParameters{3.01});
   CrackText      text;
   text.name = "c";
-  expect_input_error([&] { CrackTracker<2>(parameters_of(text), nodes); }, {"Cracks/c/Origin", "2 coordinates"});
+  expect_input_error([&] { CrackTracker<2>(parameters_of(text), nodes); },
+                     {"Cracks/c/Origin", "2 coordinates"});
   text.origin    = "0, 0";
   text.direction = "0, 0";
-  expect_input_error([&] { CrackTracker<2>(parameters_of(text), nodes); }, {"Cracks/c/Direction", "no length"});
+  expect_input_error([&] { CrackTracker<2>(parameters_of(text), nodes); },
+                     {"Cracks/c/Direction", "no length"});
 }
 
 /// A damaged cross parts a square in four; a damaged corner cell alone is dust.
 TEST(Fragments, AreWhatDamageParts)
 {
-  const auto         mesh = test::make_box<2>({32, 32}, {1., 1.}, 0.1);
+  const auto          mesh = test::make_box<2>({32, 32}, {1., 1.}, 0.1);
   const test::Body<2> body(*mesh);
   std::vector<double> damage(body.nodes.size(), 0.);
   EXPECT_EQ(find_fragments(*body.families, body.nodes.spacing, damage, 0.35).size(), 1u);

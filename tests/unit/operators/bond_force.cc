@@ -148,6 +148,9 @@ namespace
           EXPECT_NEAR((energy[1] - energy[0]) / (2 * h), -power, 1e-6 * std::abs(power));
         }
 
+      // At rest exactly nothing pulls.
+      EXPECT_EQ(loose.force_of(rough<dim>(0., 1)).linfty_norm(), 0.);
+
       // At rest, and wherever the body is carried, nothing pulls.
       EXPECT_LE(loose.force_of(rigid_motion<dim>).linfty_norm(), 1e-11 * scale);
       EXPECT_NEAR(loose.bonds->strain_energy(), 0., 1e-20);
@@ -230,5 +233,30 @@ TEST(BondForce, CutsBondsApartFromDamage)
       for (const double share : loose.bonds->cut_share())
         cut = std::max(cut, share);
       EXPECT_GT(dealii::Utilities::MPI::max(cut, MPI_COMM_WORLD), 0.3);
+    }
+}
+
+/// What has not moved is left out, and the forces are the same.
+TEST(BondForce, LeavesOutWhatIsAtRest)
+{
+  const auto mesh = test::make_box<2>({600, 6}, {100., 1.}, 0.2);
+  for (const Variant &variant : variants)
+    {
+      LooseBody<2> pulled(*mesh, variant), shifted(*mesh, variant);
+      const auto   bump = [](const dealii::Point<2> &x) {
+        dealii::Tensor<1, 2> u;
+        if (x[0] < 20.)
+          u[1] = 0.01 * std::sin(x[0] * x[1]);
+        return u;
+      };
+      pulled.force_of(bump);
+      // The same deformation of a body of which every node moves.
+      shifted.force_of(
+        [&](const dealii::Point<2> &x) { return bump(x) + dealii::Tensor<1, 2>(dealii::Point<2>(1., 0.)); });
+      shifted.force -= pulled.force;
+      EXPECT_LE(shifted.force.linfty_norm(), 1e-12 * pulled.force.linfty_norm());
+      EXPECT_LE(pulled.bonds->share_computed(), 0.5);
+      EXPECT_GE(pulled.bonds->share_computed(), 0.15);
+      EXPECT_EQ(shifted.bonds->share_computed(), 1.);
     }
 }
