@@ -57,9 +57,9 @@ namespace perideal
   {
     for (LocalIndex block = 0; block < n_row_blocks; ++block)
       if (!in_sums[block])
-        in_sums[block] = moved[block] || std::any_of(beside[block].begin(), beside[block].end(), [&](const auto b) {
-                           return moved[b] != 0;
-                         });
+        in_sums[block] = moved[block] || std::any_of(beside[block].begin(),
+                                                     beside[block].end(),
+                                                     [&](const auto b) { return moved[b] != 0; });
     if (!through_states)
       in_forces = in_sums;
     else
@@ -70,8 +70,9 @@ namespace perideal
                              std::any_of(beside[block].begin(), beside[block].end(), [&](const auto b) {
                                return b < n_row_blocks && in_sums[b] != 0;
                              });
-    const unsigned int asleep = std::any_of(in_sums.begin(), in_sums.end(), [](const auto a) { return a == 0; }) ||
-                                std::any_of(in_forces.begin(), in_forces.end(), [](const auto a) { return a == 0; });
+    const unsigned int asleep =
+      std::any_of(in_sums.begin(), in_sums.end(), [](const auto a) { return a == 0; }) ||
+      std::any_of(in_forces.begin(), in_forces.end(), [](const auto a) { return a == 0; });
     all_awake = dealii::Utilities::MPI::max(asleep, communicator) == 0;
   }
 

@@ -23,11 +23,15 @@ namespace perideal
     NodalVector source, solution;
     system.initialize(source);
     system.initialize(solution);
-    // A vector without structure that does not depend on the number of ranks.
+    // A vector without structure that follows from the positions, since numbers depend on the ranks.
+    const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
     for (std::size_t i = 0; i < source.locally_owned_size(); ++i)
       if (!system.is_held(i))
         {
-          const double x          = 12.9898 * static_cast<double>(dim * system.first_global() + i + 1);
+          const std::size_t node = i / dim;
+          double            x    = 1. + static_cast<double>(i % dim);
+          for (int d = 0; d < dim; ++d)
+            x += (12.9898 + 7.1 * d) * nodes.position[node][d] / nodes.horizon[node];
           source.local_element(i) = std::fmod(std::abs(43758.5453 * std::sin(x)), 1.) - 0.5;
         }
     double                         largest = 0;

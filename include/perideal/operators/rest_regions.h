@@ -46,7 +46,7 @@ namespace perideal
     LocalIndex n_owned, n_local, n_row_blocks;
     bool       through_states;
     MPI_Comm   communicator;
-    bool       all_awake = false;
+    bool       all_awake   = false;
     double     awake_slots = 0, all_slots = 0;
 
     /// Blocks of owned rows, then of ghosts; those that hold the neighbours of each row block.
