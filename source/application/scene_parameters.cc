@@ -188,6 +188,14 @@ namespace perideal
         if (!initial.velocity[d].empty())
           complain(std::string("Initial conditions/v_") + axes[d]);
       }
+    for (const std::string &field : field_names())
+      if (field == "velocity" || field == "damage" || field == "precracks")
+        throw InputError("this field belongs to dynamics")
+          .parameter("Output/Fields")
+          .given(field)
+          .hint("remove it, or set Solver/Name = dynamics");
+    if (!cracks.cracks.empty())
+      complain("Cracks/" + cracks.cracks.front().name);
     if (!precracks.cracks.empty())
       complain("Precracks/" + precracks.cracks.front().name);
   }

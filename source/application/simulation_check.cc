@@ -25,8 +25,9 @@ namespace perideal
     const std::size_t bytes = dealii::Utilities::MPI::sum(
       scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
     screen << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
-           << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node; "
-           << "the preconditioner takes about as much again\n";
+           << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node"
+           << (parameters.solver.is_dynamic() ? "" : "; the preconditioner takes about as much again")
+           << '\n';
     const auto density = [&](const dealii::types::material_id id) { return properties_of(id).density; };
     screen << "time step   " << short_number(stable_time_step(*scene.system, density))
            << " s is the largest stable one of explicit dynamics\n";
