@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/family_force.h>
+#include <perideal/operators/family_states.h>
 
 #include <algorithm>
 
@@ -108,32 +109,6 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::turn_sums_into_states()
-  {
-    const bool has_ghosts = families->n_local() > families->n_owned();
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      {
-        States s;
-        for (unsigned int a = 0; a < n_sums; ++a)
-          s[a] = sums[a][i];
-        s = weights->states(i, s);
-        for (unsigned int a = 0; a < n_sums; ++a)
-          {
-            state[a][i] = s[a];
-            if (has_ghosts)
-              ghosted_states.local_element(n_sums * i + a) = s[a];
-          }
-      }
-    if (!has_ghosts)
-      return;
-    ghosted_states.update_ghost_values();
-    for (LocalIndex i = families->n_owned(); i < families->n_local(); ++i)
-      for (unsigned int a = 0; a < n_sums; ++a)
-        state[a][i] = ghosted_states.local_element(n_sums * i + a);
-    ghosted_states.zero_out_ghost_values();
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
   template <bool can_break>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
   {
@@ -205,7 +180,7 @@ namespace perideal
           sum_over_families<true>();
         else
           sum_over_families<false>();
-        turn_sums_into_states();
+        turn_sums_into_states<dim, n_sums, own_force_weights>(*weights, sums, state, ghosted_states);
         sum_forces<false>();
       }
     else if (can_break)

@@ -65,7 +65,6 @@ namespace perideal
     /// The passes over all bonds; @p can_break: with the check of lengths.
     template <bool can_break>
     void sum_over_families();
-    void turn_sums_into_states();
     template <bool can_break>
     void sum_forces();
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_family_states_h
+#define perideal_operators_family_states_h
+
+#include <perideal/operators/family_weights.h>
+
+#include <array>
+#include <vector>
+
+namespace perideal
+{
+  /// Turns the sums of owned nodes into states, and fetches those of ghosts from their owners. Collective.
+  /// @param sums, state by local node @param ghosted work space, n_sums values a node with ghosts
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void turn_sums_into_states(const FamilyWeights<dim, n_sums, own_force_weights> &weights,
+                             const std::array<std::vector<double>, n_sums>       &sums,
+                             std::array<std::vector<double>, n_sums>             &state,
+                             NodalVector                                         &ghosted)
+  {
+    const LocalIndex n_owned = weights.families->n_owned(), n_local = weights.families->n_local();
+    const bool       has_ghosts = n_local > n_owned;
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      {
+        std::array<double, n_sums> s;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          s[a] = sums[a][i];
+        s = weights.states(i, s);
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            state[a][i] = s[a];
+            if (has_ghosts)
+              ghosted.local_element(n_sums * i + a) = s[a];
+          }
+      }
+    if (!has_ghosts)
+      return;
+    ghosted.update_ghost_values();
+    for (LocalIndex i = n_owned; i < n_local; ++i)
+      for (unsigned int a = 0; a < n_sums; ++a)
+        state[a][i] = ghosted.local_element(n_sums * i + a);
+    ghosted.zero_out_ghost_values();
+  }
+} // namespace perideal
+
+#endif
