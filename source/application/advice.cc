@@ -87,9 +87,9 @@ namespace perideal
     const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
     if (!stress && nu > 0.45)
       result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
-    if (scene.bonds && scene.bonds->counts.singular > 0)
+    if (scene.family_counts.singular > 0)
       result.push_back(
-        grouped(scene.bonds->counts.singular) +
+        grouped(scene.family_counts.singular) +
         (consistent ? " cells lie in parts one cell thick, across which they have no gradient: take two "
                       "cells, or Material/Form = energy" :
                       " families miss a moment condition: uniform strain is not exact there (corners, thin "

@@ -145,7 +145,7 @@ namespace perideal
          // met.
          {"family status", [](Scene s, Output o) {
             const auto status = [&](LocalIndex i) {
-              const FamilyReport &report = s.bonds->reports[i];
+              const FamilyReport &report = s.family_reports[i];
               return double(report.fallback + 2 * report.singular + 4 * report.indefinite);
             };
             add_family_scalar(s, "family_status", status, o);

@@ -50,10 +50,9 @@ namespace perideal
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
     result["model"]      = parameters.model.model;
     result["variant"] = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
-    if (scene.bonds)
-      result["families"] = {{"fallback", scene.bonds->counts.fallback},
-                            {"singular", scene.bonds->counts.singular},
-                            {"indefinite", scene.bonds->counts.indefinite}};
+    result["families"] = {{"fallback", scene.family_counts.fallback},
+                          {"singular", scene.family_counts.singular},
+                          {"indefinite", scene.family_counts.indefinite}};
     return result;
   }
 
@@ -113,13 +112,10 @@ namespace perideal
         << "model       " << parameters.model.model
         << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "")
         << ", " << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
-    if (scene.bonds)
-      {
-        const FamilyCounts &counts = scene.bonds->counts;
-        out << "families    " << grouped(counts.fallback) << " with fallback weights, "
-            << grouped(counts.singular) << " miss a moment condition (singular), "
-            << grouped(counts.indefinite) << " had negative deviatoric weights\n";
-      }
+    const FamilyCounts &counts = scene.family_counts;
+    out << "families    " << grouped(counts.fallback) << " with fallback weights, "
+        << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
+        << " had negative deviatoric weights\n";
     out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
     if (scene.mirror->n_fictitious() > 0)
       out << ", " << grouped(scene.mirror->nodes().n_global - scene.nodes->n_global) << " fictitious nodes";

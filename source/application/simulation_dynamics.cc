@@ -96,8 +96,13 @@ namespace perideal
     std::vector<double> mass(scene.nodes->size());
     {
       const Timings::Scope scope(timings, "setup");
-      scene.force = create_bond_force<dim>(scene.weights);
+      scene.force = create_bond_force<dim>(*scene.weights);
       make_cracks_and_limits();
+      // What only the time step needed.
+      scene.system.reset();
+      scene.bonds.reset();
+      scene.weights.reset();
+      scene.families->release_members();
       for (LocalIndex i = 0; i < mass.size(); ++i)
         mass[i] = properties_of(scene.nodes->material[i]).density * scene.nodes->volume[i];
     }
@@ -142,7 +147,7 @@ namespace perideal
   void Simulation<dim>::run_steps(ExplicitDynamics<dim> &dynamics, const double time_step)
   {
     const unsigned int n_steps = std::lround(parameters.solver.end_time / time_step);
-    scene.system->initialize(external_force);
+    scene.force->initialize(external_force);
     check_finite(
       scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
     const auto set_loads = [&]() {
@@ -197,8 +202,11 @@ namespace perideal
     if (scene.crack_tracker)
       summary["cracks"] = scene.crack_tracker->describe();
     if (can_break(parameters))
-      summary["damage"]["fragments"] =
-        find_fragments(*scene.families, scene.nodes->spacing, total_damage(), parameters.cracks.damage);
+      summary["damage"]["fragments"] = find_fragments(*scene.families,
+                                                      scene.force->bond_list(),
+                                                      scene.nodes->spacing,
+                                                      total_damage(),
+                                                      parameters.cracks.damage);
   }
 
   template <int dim>

@@ -68,7 +68,7 @@ namespace perideal
                                     scene.condition_boundaries,
                                     scene.nodes->size());
       }
-    scene.families = std::make_shared<const Families<dim>>(scene.mirror->nodes());
+    scene.families = std::make_shared<Families<dim>>(scene.mirror->nodes());
     if (scene.families->statistics().min == 0)
       throw InputError("a node has no neighbour within its horizon")
         .parameter("Nodes/Horizon factor")
@@ -120,6 +120,8 @@ namespace perideal
         scene.weights              = perideal::weigh_bonds<dim>(scene.families, *model, moduli);
         scene.bonds                = create_bond_operator<dim>(scene.weights);
       }
+    scene.family_counts  = scene.bonds->counts;
+    scene.family_reports = scene.bonds->reports;
     scene.system =
       std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
   }

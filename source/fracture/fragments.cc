@@ -12,6 +12,7 @@ namespace perideal
 {
   template <int dim>
   std::vector<double> find_fragments(const Families<dim>       &families,
+                                     const BondList            &bonds,
                                      const std::vector<double> &spacing,
                                      const std::vector<double> &damage,
                                      const double               damaged)
@@ -20,6 +21,9 @@ namespace perideal
     NodalVector label(families.make_partitioner(1));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       label.local_element(i) = damage[i] < damaged ? double(families.global_number(i)) : -1.;
+    // Horizons are the same multiple of the spacing everywhere.
+    const double reach =
+      families.n_owned() > 0 ? 1.1 * std::sqrt(double(dim)) * spacing[0] / families.horizon[0] : 0.;
     for (unsigned int changed = 1; changed > 0;)
       {
         label.update_ghost_values();
@@ -29,19 +33,19 @@ namespace perideal
           {
             changed_in_here = false;
             for (LocalIndex i = 0; i < families.n_owned(); ++i)
-              if (label.local_element(i) >= 0)
+              for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
                 {
-                  const double reach    = 1.1 * std::sqrt(double(dim)) * spacing[i];
-                  double       smallest = label.local_element(i);
-                  for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
-                    if (label.local_element(*j) >= 0 &&
-                        families.position[i].distance(families.position[*j]) <= reach)
-                      smallest = std::min(smallest, label.local_element(*j));
-                  if (smallest < label.local_element(i))
+                  const LocalIndex j = bonds.neighbour[slot];
+                  double           a = label.local_element(i), b = label.local_element(j);
+                  if (a == b || a < 0 || b < 0 ||
+                      families.position[i].distance(families.position[j]) >
+                        reach * std::max(families.horizon[i], families.horizon[j]))
+                    continue;
+                  label.local_element(i) = label.local_element(j) = std::min(a, b);
+                  if (j < families.n_owned() || b < a)
                     {
-                      label.local_element(i) = smallest;
-                      changed_in_here        = true;
-                      changed                = 1;
+                      changed_in_here = true;
+                      changed         = 1;
                     }
                 }
           }
@@ -70,8 +74,14 @@ namespace perideal
     return result;
   }
 
-  template std::vector<double>
-  find_fragments(const Families<2> &, const std::vector<double> &, const std::vector<double> &, const double);
-  template std::vector<double>
-  find_fragments(const Families<3> &, const std::vector<double> &, const std::vector<double> &, const double);
+  template std::vector<double> find_fragments(const Families<2> &,
+                                              const BondList &,
+                                              const std::vector<double> &,
+                                              const std::vector<double> &,
+                                              const double);
+  template std::vector<double> find_fragments(const Families<3> &,
+                                              const BondList &,
+                                              const std::vector<double> &,
+                                              const std::vector<double> &,
+                                              const double);
 } // namespace perideal

@@ -26,6 +26,18 @@ namespace perideal
     neighbour.shrink_to_fit();
   }
 
+  BondIndex BondList::find(const LocalIndex i, const LocalIndex j) const
+  {
+    // A bond of owned nodes stands in the row of the lower one.
+    const LocalIndex near = std::min(i, j), far = std::max(i, j);
+    const auto       begin = neighbour.begin() + row[near];
+    auto             end   = neighbour.begin() + row[near + 1];
+    while (end != begin && *(end - 1) == near) // padding
+      --end;
+    const auto at = std::lower_bound(begin, end, far);
+    return at != end && *at == far ? at - neighbour.begin() : no_slot;
+  }
+
   std::size_t BondList::memory_consumption() const
   {
     return dealii::MemoryConsumption::memory_consumption(row) +

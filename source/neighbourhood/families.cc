@@ -81,6 +81,7 @@ namespace perideal
   {
     search(nodes);
     drop_unused_ghosts();
+    count();
   }
 
   template <int dim>
@@ -191,25 +192,26 @@ namespace perideal
   }
 
   template <int dim>
-  GlobalIndex Families<dim>::n_bonds() const
+  void Families<dim>::count()
   {
-    return dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(neighbour.size()), communicator) / 2;
-  }
-
-  template <int dim>
-  typename Families<dim>::Statistics Families<dim>::statistics() const
-  {
+    n_bonds_of_all =
+      dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(neighbour.size()), communicator) / 2;
     LocalIndex smallest = dealii::numbers::invalid_unsigned_int, largest = 0;
     for (LocalIndex i = 0; i < n_owned_nodes; ++i)
       {
         smallest = std::min(smallest, size(i));
         largest  = std::max(largest, size(i));
       }
-    Statistics result;
-    result.min  = dealii::Utilities::MPI::min(smallest, communicator);
-    result.max  = dealii::Utilities::MPI::max(largest, communicator);
-    result.mean = n_global == 0 ? 0. : 2. * n_bonds() / n_global;
-    return result;
+    sizes.min  = dealii::Utilities::MPI::min(smallest, communicator);
+    sizes.max  = dealii::Utilities::MPI::max(largest, communicator);
+    sizes.mean = n_global == 0 ? 0. : 2. * n_bonds() / n_global;
+  }
+
+  template <int dim>
+  void Families<dim>::release_members()
+  {
+    std::vector<BondIndex>().swap(row);
+    std::vector<LocalIndex>().swap(neighbour);
   }
 
   template <int dim>

@@ -38,8 +38,7 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         positions[i].value[d] = families->position[i][d];
-    const BondList   &bonds = weights->bonds;
-    const NodeRecord *y     = positions.data();
+    const NodeRecord *y = positions.data();
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
         {
@@ -51,7 +50,8 @@ namespace perideal
           sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
           const Lanes length = square_root(square);
           for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
-            rest_length[k + lane] = length[lane];
+            // Padding has a length too: none that it could exceed.
+            rest_length[k + lane] = j[lane] == i ? 1. : length[lane];
         }
   }
 
@@ -61,7 +61,6 @@ namespace perideal
   {
     for (unsigned int a = 0; a < n_sums; ++a)
       std::fill(sums[a].begin(), sums[a].end(), 0.);
-    const BondList   &bonds     = weights->bonds;
     const LocalIndex *neighbour = bonds.neighbour.data();
     const NodeRecord *y         = positions.data();
 
@@ -85,17 +84,18 @@ namespace perideal
             load(rest, rest_length.data() + k);
             if constexpr (can_break)
               {
-                Lanes largest;
-                load(largest, largest_length.data() + k);
-                if (__builtin_expect(any_negative(largest - length), false))
-                  break_bonds(i, k, length);
+                Lanes critical;
+                load(critical, critical_stretch.data() + k);
+                const Lanes margin = critical * rest - (length - rest);
+                if (__builtin_expect(any_negative(margin), false))
+                  break_bonds(i, k, -margin);
               }
             const Lanes extension = (length - rest) * rest;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
-                load(near, weights->sum_weight[a].near.data() + k);
-                load(far, weights->sum_weight[a].far.data() + k);
+                load(near, sum_weight[a].near.data() + k);
+                load(far, sum_weight[a].far.data() + k);
                 own[a] += near * extension;
                 far *= extension;
                 double *sum = sums[a].data();
@@ -112,11 +112,10 @@ namespace perideal
   template <bool can_break>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
   {
-    const BondList   &bonds        = weights->bonds;
     const LocalIndex *neighbour    = bonds.neighbour.data();
     const NodeRecord *y            = positions.data();
     NodeRecord       *f            = forces.data();
-    const auto       &pull_weights = weights->force_weights();
+    const auto       &pull_weights = force_weights();
     const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
@@ -140,12 +139,13 @@ namespace perideal
             load(rest, rest_length.data() + k);
             if constexpr (can_break)
               {
-                Lanes largest;
-                load(largest, largest_length.data() + k);
-                if (__builtin_expect(any_negative(largest - length), false))
-                  break_bonds(i, k, length);
+                Lanes critical;
+                load(critical, critical_stretch.data() + k);
+                const Lanes margin = critical * rest - (length - rest);
+                if (__builtin_expect(any_negative(margin), false))
+                  break_bonds(i, k, -margin);
               }
-            load(magnitude, weights->stiffness.data() + k);
+            load(magnitude, stiffness.data() + k);
             magnitude *= (length - rest) * rest;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
@@ -173,14 +173,14 @@ namespace perideal
   {
     broken_now.clear();
     import_positions(displacement);
-    const bool can_break = !largest_length.empty();
+    const bool can_break = !critical_stretch.empty();
     if constexpr (n_sums > 0)
       {
         if (can_break)
           sum_over_families<true>();
         else
           sum_over_families<false>();
-        turn_sums_into_states<dim, n_sums, own_force_weights>(*weights, sums, state, ghosted_states);
+        turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
         sum_forces<false>();
       }
     else if (can_break)

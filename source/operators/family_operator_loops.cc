@@ -66,7 +66,7 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyOperator<dim, n_sums, own_force_weights>::turn_sums_into_states() const
   {
-    perideal::turn_sums_into_states<dim, n_sums, own_force_weights>(*weights, sums, state, ghosted_states);
+    perideal::turn_sums_into_states<n_sums>(weights->map, sums, state, ghosted_states);
     // In 2-D both states ride in the record of the displacement, in 3-D the first.
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (unsigned int a = 0; a < n_sums && dim + a < 4; ++a)

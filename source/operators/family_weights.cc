@@ -31,7 +31,7 @@ namespace perideal
             ends.near.assign(n, 0.);
             ends.far.assign(n, 0.);
           }
-    map.resize(families.n_local());
+    map.entries.resize(n_sums > 0 ? families.n_local() : 0);
     energy.assign(own_force_weights ? families.n_owned() : 0, 0.);
     this->reports.resize(families.n_owned());
 
@@ -66,14 +66,8 @@ namespace perideal
     for (BondIndex slot = 0; slot < n; ++slot)
       stiffness[slot] += far_stiffness[slot];
 
-    NodalVector maps(families.make_partitioner(3));
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      for (unsigned int k = 0; k < 3; ++k)
-        maps.local_element(3 * i + k) = map[i][k];
-    maps.update_ghost_values();
-    for (LocalIndex i = families.n_owned(); i < families.n_local(); ++i)
-      for (unsigned int k = 0; k < 3; ++k)
-        map[i][k] = maps.local_element(3 * i + k);
+    if (n_sums > 0)
+      import_maps();
 
     for (const FamilyReport &report : this->reports)
       {
@@ -90,8 +84,9 @@ namespace perideal
                                                             const FamilyCoefficients           &coefficients,
                                                             const std::vector<BondCursor::End> &ends)
   {
-    map[i]           = coefficients.map;
     this->reports[i] = coefficients.report;
+    if constexpr (n_sums > 0)
+      map.entries[i] = coefficients.map;
     if constexpr (own_force_weights)
       energy[i] = coefficients.energy;
     for (std::size_t k = 0; k < ends.size(); ++k)
@@ -109,13 +104,17 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyWeights<dim, n_sums, own_force_weights>::remove(const BondIndex slot)
+  void FamilyWeights<dim, n_sums, own_force_weights>::import_maps()
   {
-    stiffness[slot] = 0.;
-    for (Sums *weights : {&sum_weight, &force_weight})
-      if (weights == &sum_weight || own_force_weights)
-        for (Ends &ends : *weights)
-          ends.near[slot] = ends.far[slot] = 0.;
+    const Families<dim> &families = *this->families;
+    NodalVector          maps(families.make_partitioner(3));
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        maps.local_element(3 * i + k) = map.entries[i][k];
+    maps.update_ghost_values();
+    for (LocalIndex i = families.n_owned(); i < families.n_local(); ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        map.entries[i][k] = maps.local_element(3 * i + k);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -123,7 +122,7 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     std::size_t bytes = this->bonds.memory_consumption() + memory_consumption(stiffness) +
-                        map.size() * sizeof(map[0]) + memory_consumption(energy);
+                        map.entries.size() * sizeof(map.entries[0]) + memory_consumption(energy);
     for (const Sums *weights : {&sum_weight, &force_weight})
       for (const Ends &ends : *weights)
         bytes += memory_consumption(ends.near) + memory_consumption(ends.far);

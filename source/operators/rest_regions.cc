@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/rest_regions.h>
 
+#include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -74,6 +75,13 @@ namespace perideal
       std::any_of(in_sums.begin(), in_sums.end(), [](const auto a) { return a == 0; }) ||
       std::any_of(in_forces.begin(), in_forces.end(), [](const auto a) { return a == 0; });
     all_awake = dealii::Utilities::MPI::max(asleep, communicator) == 0;
+  }
+
+  std::size_t RestRegions::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(moved) + memory_consumption(in_sums) + memory_consumption(in_forces) +
+           memory_consumption(beside_ghosts) + memory_consumption(beside) + memory_consumption(slots);
   }
 
   double RestRegions::share_awake() const

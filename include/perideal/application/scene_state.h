@@ -54,11 +54,14 @@ namespace perideal
     std::shared_ptr<FaceValues<dim>>         face_values;
     std::shared_ptr<MirrorLayer<dim>>        mirror;
     PointForces<dim>                         point_forces;
-    std::shared_ptr<const Families<dim>>     families;
+    std::shared_ptr<Families<dim>>           families;
 
     /// What the model made of the bonds; the consistent form has no such.
     std::shared_ptr<BondWeights<dim>>  weights;
     std::shared_ptr<BondOperator<dim>> bonds;
+    /// What became of the families, of all ranks and by owned node.
+    FamilyCounts              family_counts;
+    std::vector<FamilyReport> family_reports;
     /// The same object as bonds, where the form is consistent.
     std::shared_ptr<ConsistentOperator<dim>>  consistent;
     std::unique_ptr<ConstrainedOperator<dim>> system;

@@ -39,6 +39,13 @@ namespace perideal
     __builtin_memcpy(&result, from, sizeof(Lanes));
   }
 
+  PERIDEAL_INLINE void load(Lanes &result, const float *from)
+  {
+    float numbers __attribute__((vector_size(16)));
+    __builtin_memcpy(&numbers, from, sizeof(numbers));
+    result = __builtin_convertvector(numbers, Lanes);
+  }
+
   /// The sums over the entries of a, b, c and d.
   PERIDEAL_INLINE void
   sum_of_each(Lanes &result, const Lanes &a, const Lanes &b, const Lanes &c, const Lanes &d)

@@ -2,7 +2,7 @@
 #ifndef perideal_fracture_fragments_h
 #define perideal_fracture_fragments_h
 
-#include <perideal/neighbourhood/families.h>
+#include <perideal/neighbourhood/bond_list.h>
 
 #include <vector>
 
@@ -16,6 +16,7 @@ namespace perideal
    */
   template <int dim>
   std::vector<double> find_fragments(const Families<dim>       &families,
+                                     const BondList            &bonds,
                                      const std::vector<double> &spacing,
                                      const std::vector<double> &damage,
                                      const double               damaged);

@@ -28,12 +28,22 @@ namespace perideal
     LocalIndex n_rows() const { return static_cast<LocalIndex>(row.size() - 1); }
     BondIndex  n_slots() const { return neighbour.size(); }
 
+    static constexpr BondIndex no_slot = -1;
+    /// Slot of the bond of an owned node with another local one; no_slot: there is none.
+    BondIndex find(const LocalIndex i, const LocalIndex j) const;
+
     std::size_t memory_consumption() const;
 
     /// Slots of row i: [row[i], row[i+1]), a multiple of n_lanes.
     std::vector<BondIndex> row;
     /// The far end of each slot.
     std::vector<LocalIndex> neighbour;
+  };
+
+  /// The local numbers of the nodes of a bond; the near end is owned.
+  struct BondEnds
+  {
+    LocalIndex near, far;
   };
 
   /**

@@ -35,16 +35,19 @@ namespace perideal
     const LocalIndex *end(const LocalIndex i) const { return neighbour.data() + row[i + 1]; }
     LocalIndex        size(const LocalIndex i) const { return static_cast<LocalIndex>(row[i + 1] - row[i]); }
 
-    /// Number of undirected bonds of all ranks. Collective.
-    GlobalIndex n_bonds() const;
+    /// Number of undirected bonds of all ranks.
+    GlobalIndex n_bonds() const { return n_bonds_of_all; }
 
     struct Statistics
     {
       LocalIndex min = 0, max = 0;
       double     mean = 0;
     };
-    /// Family sizes over all ranks. Collective.
-    Statistics statistics() const;
+    /// Family sizes over all ranks.
+    Statistics statistics() const { return sizes; }
+
+    /// Lets the lists of members go, which take the most memory: begin(), end() and size() are over.
+    void release_members();
 
     /// Global number of a local node.
     GlobalIndex global_number(const LocalIndex i) const
@@ -78,11 +81,14 @@ namespace perideal
     /// Drops members of which neither horizon holds the other, where they are no spheres.
     void keep_within_shapes(const LocalIndex i, std::vector<LocalIndex> &members) const;
     void drop_unused_ghosts();
+    void count();
 
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
     std::vector<BondIndex>  row;
     std::vector<LocalIndex> neighbour;
+    GlobalIndex             n_bonds_of_all = 0;
+    Statistics              sizes;
   };
 } // namespace perideal
 

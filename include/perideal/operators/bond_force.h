@@ -39,6 +39,15 @@ namespace perideal
     /// @param displacement of owned nodes [m]
     virtual void compute(NodalVector &force, const NodalVector &displacement) = 0;
 
+    /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both
+    /// ranks.
+    virtual std::vector<BondEnds> broken_bonds() const = 0;
+    /// Breaks bonds again that broke in an earlier run. Those that are no bonds here are left out.
+    virtual void restore_broken(const std::vector<BondEnds> &broken) = 0;
+
+    /// All bonds of this rank, broken ones included.
+    virtual const BondList &bond_list() const = 0;
+
     /// Bonds of all ranks that broke in the last compute(). Collective.
     virtual GlobalIndex n_broken_now() const = 0;
 
@@ -75,9 +84,9 @@ namespace perideal
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
   };
 
-  /// The force of weighed bonds, which loses what breaks.
+  /// The force of weighed bonds; it keeps its own copy of their weights.
   template <int dim>
-  std::unique_ptr<BondForce<dim>> create_bond_force(const std::shared_ptr<BondWeights<dim>> &weights);
+  std::unique_ptr<BondForce<dim>> create_bond_force(const BondWeights<dim> &weights);
 } // namespace perideal
 
 #endif

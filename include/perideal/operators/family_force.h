@@ -14,22 +14,29 @@
 
 namespace perideal
 {
-  /// The nonlinear loops for models of one family shape.
+  /**
+   * The nonlinear loops for models of one family shape. Weights are kept in single precision, which
+   * halves what the loops load; it is one perturbation of 6e-8 of the material, the same in forces and
+   * energy. Lengths, sums and forces are in double precision.
+   */
   template <int dim, unsigned int n_sums, bool own_force_weights>
   class FamilyForce : public BondForce<dim>
   {
   public:
     using Weights = FamilyWeights<dim, n_sums, own_force_weights>;
 
-    explicit FamilyForce(const std::shared_ptr<Weights> &weights);
+    explicit FamilyForce(const Weights &weights);
 
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
     void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
-    GlobalIndex         n_broken_now() const override;
-    double              strain_energy() const override;
-    double              released_energy(const NodalVector &velocity, const double time_step) const override;
-    std::vector<double> dilatation() const override
+    GlobalIndex           n_broken_now() const override;
+    std::vector<BondEnds> broken_bonds() const override;
+    void                  restore_broken(const std::vector<BondEnds> &broken) override;
+    const BondList       &bond_list() const override { return bonds; }
+    double                strain_energy() const override;
+    double                released_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double>   dilatation() const override
     {
       if constexpr (n_sums == 0)
         return std::vector<double>(families->n_owned(), 0.);
@@ -60,6 +67,27 @@ namespace perideal
       States sum = {}, force = {}, force_rate = {};
     };
 
+    /// Values of the two ends of every bond, by slot.
+    struct Ends
+    {
+      std::vector<float> near, far;
+    };
+    using Sums = std::array<Ends, n_sums>;
+
+    const Sums &force_weights() const
+    {
+      if constexpr (own_force_weights)
+        return force_weight;
+      else
+        return sum_weight;
+    }
+    /// False of padding, and of bonds that were cut or broke.
+    bool carries_force(const BondIndex slot) const;
+    /// The row that holds the slot.
+    LocalIndex near_end(const BondIndex slot) const;
+    /// Takes a bond out: all its weights become zero.
+    void remove(const BondIndex slot);
+
     void measure_rest_lengths();
     void import_positions(const NodalVector &displacement);
     /// The passes over all bonds; @p can_break: with the check of lengths.
@@ -69,7 +97,8 @@ namespace perideal
     void sum_forces();
 
     /// Breaks those of a group of bonds that are too long.
-    void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &length);
+    /// @param excess of their lengths over the largest ones [m]
+    void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &excess);
     void lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume);
 
     /// eps and its rate of one bond, from the end @p i.
@@ -88,20 +117,28 @@ namespace perideal
 
     std::vector<double> share_of_family(const std::vector<double> &volume) const;
 
-    std::shared_ptr<Weights>             weights;
     std::shared_ptr<const Families<dim>> families;
+    BondList                             bonds;
+    FamilyMaps<n_sums>                   map;
+    /// As in FamilyWeights.
+    Sums                sum_weight, force_weight;
+    std::vector<float>  stiffness;
+    std::vector<double> energy;
 
-    /// Lengths at rest and largest ones [m] by slot; the latter empty where nothing breaks.
-    std::vector<double> rest_length, largest_length;
+    /// Lengths at rest by slot [m].
+    std::vector<double> rest_length;
+    /// Stretches at which bonds break, by slot; empty where nothing breaks.
+    std::vector<float>  critical_stretch;
     RestRegions         regions;
     std::vector<double> family_volume, broken_volume, cut_volume;
 
     std::vector<BrokenBond> broken_now;
+    /// All that broke, in this order.
+    std::vector<BondIndex> broken_slots;
 
     dealii::AlignedVector<NodeRecord>       positions, forces;
     std::array<std::vector<double>, n_sums> sums, state;
     NodalVector                             ghosted, ghosted_states;
-    mutable NodalVector                     ghosted_velocity;
   };
 } // namespace perideal
 

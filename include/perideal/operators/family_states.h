@@ -11,20 +11,20 @@ namespace perideal
 {
   /// Turns the sums of owned nodes into states, and fetches those of ghosts from their owners. Collective.
   /// @param sums, state by local node @param ghosted work space, n_sums values a node with ghosts
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void turn_sums_into_states(const FamilyWeights<dim, n_sums, own_force_weights> &weights,
-                             const std::array<std::vector<double>, n_sums>       &sums,
-                             std::array<std::vector<double>, n_sums>             &state,
-                             NodalVector                                         &ghosted)
+  template <unsigned int n_sums>
+  void turn_sums_into_states(const FamilyMaps<n_sums>                      &map,
+                             const std::array<std::vector<double>, n_sums> &sums,
+                             std::array<std::vector<double>, n_sums>       &state,
+                             NodalVector                                   &ghosted)
   {
-    const LocalIndex n_owned = weights.families->n_owned(), n_local = weights.families->n_local();
+    const LocalIndex n_local = map.entries.size(), n_owned = ghosted.locally_owned_size() / n_sums;
     const bool       has_ghosts = n_local > n_owned;
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
         std::array<double, n_sums> s;
         for (unsigned int a = 0; a < n_sums; ++a)
           s[a] = sums[a][i];
-        s = weights.states(i, s);
+        s = map.states(i, s);
         for (unsigned int a = 0; a < n_sums; ++a)
           {
             state[a][i] = s[a];

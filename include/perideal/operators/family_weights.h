@@ -30,9 +30,6 @@ namespace perideal
   public:
     virtual ~BondWeights() = default;
 
-    /// Takes a bond out: all its weights become zero.
-    virtual void remove(const BondIndex slot) = 0;
-
     virtual std::size_t memory_consumption() const = 0;
 
     std::shared_ptr<const Families<dim>> families;
@@ -53,6 +50,25 @@ namespace perideal
     }
   };
 
+  /// What turns the sums of families into states, by local node, ghosts included.
+  template <unsigned int n_sums>
+  struct FamilyMaps
+  {
+    /// map s.
+    std::array<double, n_sums> states(const LocalIndex i, const std::array<double, n_sums> &s) const
+    {
+      if constexpr (n_sums == 0)
+        return {};
+      else if constexpr (n_sums == 1)
+        return {{entries[i][0] * s[0]}};
+      else
+        return {{entries[i][0] * s[0] + entries[i][1] * s[1], entries[i][1] * s[0] + entries[i][2] * s[1]}};
+    }
+
+    /// Entries (0,0), (0,1) = (1,0), (1,1) of each.
+    std::vector<std::array<double, 3>> entries;
+  };
+
   /**
    * The weights of models of one family shape: of each bond, for each sum, the
    * weight of either end, and one stiffness.
@@ -66,7 +82,6 @@ namespace perideal
                   LinearModel<dim>                                              &model,
                   const std::function<Moduli(const dealii::types::material_id)> &moduli);
 
-    void        remove(const BondIndex slot) override;
     std::size_t memory_consumption() const override;
 
     /// Values of the two ends of every bond, by slot.
@@ -84,23 +99,16 @@ namespace perideal
         return sum_weight;
     }
 
-    /// map s, the states of a node from its sums.
     std::array<double, n_sums> states(const LocalIndex i, const std::array<double, n_sums> &s) const
     {
-      if constexpr (n_sums == 0)
-        return {};
-      else if constexpr (n_sums == 1)
-        return {{map[i][0] * s[0]}};
-      else
-        return {{map[i][0] * s[0] + map[i][1] * s[1], map[i][1] * s[0] + map[i][2] * s[1]}};
+      return map.states(i, s);
     }
 
     Sums sum_weight;
     /// Empty unless the shape has them.
     Sums                force_weight;
     std::vector<double> stiffness;
-    /// Maps from sums to states by local node, ghosts included.
-    std::vector<std::array<double, 3>> map;
+    FamilyMaps<n_sums>  map;
     /// Coefficients of the squared sum in the strain energy by owned node; only of
     /// models with own force weights.
     std::vector<double> energy;
@@ -108,6 +116,7 @@ namespace perideal
   private:
     void weigh_families(LinearModel<dim>                                              &model,
                         const std::function<Moduli(const dealii::types::material_id)> &moduli);
+    void import_maps();
     void store(const LocalIndex                    i,
                const FamilyCoefficients           &coefficients,
                const std::vector<BondCursor::End> &ends);

@@ -36,6 +36,18 @@ namespace perideal
     bool sums_awake(const LocalIndex block) const { return in_sums[block] != 0; }
     bool forces_awake(const LocalIndex block) const { return in_forces[block] != 0; }
 
+    /// Calls visit(j) with the owned nodes whose rows may hold node @p i as their far end.
+    template <typename Visit>
+    void visit_rows_with(const LocalIndex i, const Visit &visit) const
+    {
+      for (const LocalIndex block : beside[block_of(i)])
+        for (LocalIndex j = block * block_size; block < n_row_blocks && j < (block + 1) * block_size && j < i;
+             ++j)
+          visit(j);
+    }
+
+    std::size_t memory_consumption() const;
+
     /// Mean share of the bonds of all ranks that were awake in update(). Collective.
     double share_awake() const;
 

@@ -99,12 +99,14 @@ TEST(Fragments, AreWhatDamageParts)
   const auto          mesh = test::make_box<2>({32, 32}, {1., 1.}, 0.1);
   const test::Body<2> body(*mesh);
   std::vector<double> damage(body.nodes.size(), 0.);
-  EXPECT_EQ(find_fragments(*body.families, body.nodes.spacing, damage, 0.35).size(), 1u);
+  EXPECT_EQ(find_fragments(*body.families, BondList(*body.families), body.nodes.spacing, damage, 0.35).size(),
+            1u);
   for (LocalIndex i = 0; i < body.nodes.size(); ++i)
     for (int d = 0; d < 2; ++d)
       if (std::abs(body.nodes.position[i][d] - 0.25) < 0.04)
         damage[i] = 0.6;
-  const auto pieces = find_fragments(*body.families, body.nodes.spacing, damage, 0.35);
+  const auto pieces =
+    find_fragments(*body.families, BondList(*body.families), body.nodes.spacing, damage, 0.35);
   ASSERT_EQ(pieces.size(), 4u);
   EXPECT_GT(pieces[0], 0.45);
   EXPECT_NEAR(pieces[1], pieces[2], 0.02);

@@ -39,7 +39,7 @@ namespace
           const ElasticConstants own = parameters.constants_of_model(constants);
           return Moduli{own.bulk_modulus(), own.shear_modulus()};
         });
-      bonds = create_bond_force<dim>(weights);
+      bonds = create_bond_force<dim>(*weights);
       bonds->initialize(force);
       bonds->initialize(displacement);
     }

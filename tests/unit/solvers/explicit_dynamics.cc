@@ -32,7 +32,7 @@ namespace
       const auto moduli = [&](const dealii::types::material_id) {
         return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
       };
-      bonds = create_bond_force<2>(weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), moduli));
+      bonds = create_bond_force<2>(*weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), moduli));
       bonds->initialize(no_load);
     }
 
