@@ -53,6 +53,24 @@ namespace perideal
     prm.leave_subsection();
   }
 
+  void CheckpointParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Checkpoints");
+    prm.add_parameter("Steps",
+                      steps,
+                      "Steps of dynamics between two checkpoints, from which a run that was stopped goes on; "
+                      "0: only when the program is asked to stop (SIGTERM, SIGINT)",
+                      Integer(0));
+    prm.add_parameter(
+      "Restart",
+      restart,
+      "Go on from the last checkpoint in Output directory; any number of ranks may do so, and "
+      "Solver/End time and the section Output may change",
+      Bool());
+    prm.leave_subsection();
+  }
+
   void SceneParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     using namespace dealii::Patterns;
@@ -69,6 +87,7 @@ namespace perideal
     initial.declare(prm);
     precracks.declare(prm, file);
     cracks.declare(prm, file);
+    checkpoints.declare(prm);
     comparison.declare(prm);
     prm.enter_subsection("Output");
     prm.add_parameter(
@@ -194,6 +213,8 @@ namespace perideal
           .parameter("Output/Fields")
           .given(field)
           .hint("remove it, or set Solver/Name = dynamics");
+    if (checkpoints.steps > 0 || checkpoints.restart)
+      complain(checkpoints.steps > 0 ? "Checkpoints/Steps" : "Checkpoints/Restart");
     if (!cracks.cracks.empty())
       complain("Cracks/" + cracks.cracks.front().name);
     if (!precracks.cracks.empty())

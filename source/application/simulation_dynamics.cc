@@ -4,6 +4,7 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/stop_request.h>
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/critical_stretch.h>
@@ -43,7 +44,8 @@ namespace perideal
                                                             parameters.solver.time_step_safety * stable;
     // A whole number of steps.
     const double n_steps = std::max(1., std::ceil(parameters.solver.end_time / wanted - 1e-9));
-    const double result  = parameters.solver.end_time / n_steps;
+    const double result =
+      resumed ? resumed->header.at("time step").template get<double>() : parameters.solver.end_time / n_steps;
     if (result > stable)
       screen << "warning     the time step " << short_number(result)
              << " s is larger than the largest stable one, " << short_number(stable) << " s" << std::endl;
@@ -91,6 +93,8 @@ namespace perideal
   void Simulation<dim>::run_dynamics()
   {
     prepare_dynamics();
+    if (parameters.checkpoints.restart)
+      open_checkpoint();
     weigh_bonds();
     const double        time_step = choose_time_step();
     std::vector<double> mass(scene.nodes->size());
@@ -114,7 +118,10 @@ namespace perideal
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << std::endl;
 
-    history      = std::make_unique<History>(parameters.output_directory, communicator);
+    history =
+      std::make_unique<History>(parameters.output_directory,
+                                communicator,
+                                resumed ? resumed->header.at("step").template get<double>() - 0.5 : -1.);
     field_output = std::make_unique<FieldOutput<dim>>(
       *scene.mesh, *scene.nodes, parameters.output_directory, OutputSteps::series);
 
@@ -131,22 +138,34 @@ namespace perideal
         for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
           dynamics.velocity.local_element(dim * i + d) =
             scene.initial_velocity[d].value(scene.nodes->position[i], 0.);
+    if (scene.crack_tracker)
+      scene.crack_tracker->start(scene.force->cut_share());
+    if (resumed)
+      resume(dynamics);
+    bool reached_end = false;
     try
       {
-        run_steps(dynamics, time_step);
+        reached_end = run_steps(dynamics, time_step);
       }
     catch (const ComputationError &)
       {
         finish("failed");
         throw;
       }
-    finish("done");
+    finish(reached_end ? "done" : "stopped");
+    if (!reached_end)
+      throw ComputationError(
+        "asked to stop after step " + std::to_string(dynamics.step()) +
+        ", t = " + short_number(dynamics.time()) +
+        " s; the checkpoint is written\n  advice: to go on, run the same scene with --set "
+        "Checkpoints/Restart=true");
   }
 
   template <int dim>
-  void Simulation<dim>::run_steps(ExplicitDynamics<dim> &dynamics, const double time_step)
+  bool Simulation<dim>::run_steps(ExplicitDynamics<dim> &dynamics, const double time_step)
   {
-    const unsigned int n_steps = std::lround(parameters.solver.end_time / time_step);
+    const unsigned int n_steps = std::ceil(parameters.solver.end_time / time_step - 1e-6);
+    const StopRequest  stop;
     scene.force->initialize(external_force);
     check_finite(
       scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
@@ -159,11 +178,7 @@ namespace perideal
     const bool        loads_change = scene.loads.forces_depend_on_time();
     const GlobalIndex n_bonds      = scene.families->n_bonds();
     StepLine          progress(screen.get_stream(), screen.is_active(), n_steps);
-    unsigned int      frames_written = 0;
-    double            first_break    = -1;
-    if (scene.crack_tracker)
-      scene.crack_tracker->start(scene.force->cut_share());
-    for (unsigned int n = 0; n <= n_steps; ++n)
+    for (unsigned int n = dynamics.step(); n <= n_steps; ++n)
       {
         {
           const Timings::Scope scope(timings, "solve");
@@ -171,11 +186,8 @@ namespace perideal
             set_loads();
           dynamics.evaluate(external_force);
         }
-        if (first_break < 0 && dynamics.n_broken() > 0)
-          {
-            first_break                           = dynamics.time();
-            summary["damage"]["first_break_time"] = first_break;
-          }
+        if (dynamics.n_broken() > 0 && !summary["damage"].contains("first_break_time"))
+          summary["damage"]["first_break_time"] = dynamics.time();
         if (scene.crack_tracker && dynamics.n_broken_now() > 0)
           scene.crack_tracker->update(dynamics.time(), total_damage());
         if (dynamics.n_broken_now() > 0 && dynamics.n_broken() == n_bonds)
@@ -187,17 +199,23 @@ namespace perideal
         summary["solver"]["steps"] = n;
         if (n % parameters.history_steps == 0 || n == n_steps)
           record_dynamics(dynamics);
-        while (frames_written < parameters.frames &&
-               n >= std::round(double(frames_written + 1) * n_steps / parameters.frames))
+        while (frame_times.size() < parameters.frames &&
+               n >= std::round(double(frame_times.size() + 1) * n_steps / parameters.frames))
           {
-            write_frame(frames_written + 1, dynamics);
-            ++frames_written;
+            frame_times.push_back(dynamics.time());
+            write_frame(frame_times.size(), dynamics);
           }
-        if (n < n_steps)
-          {
-            const Timings::Scope scope(timings, "solve");
-            dynamics.advance();
-          }
+        if (n == n_steps)
+          break;
+        {
+          const Timings::Scope scope(timings, "solve");
+          dynamics.advance();
+        }
+        const bool stops = stop.is_there(communicator);
+        if (stops || (parameters.checkpoints.steps > 0 && (n + 1) % parameters.checkpoints.steps == 0))
+          save_checkpoint(dynamics, time_step);
+        if (stops)
+          return false;
       }
     if (scene.crack_tracker)
       summary["cracks"] = scene.crack_tracker->describe();
@@ -207,6 +225,7 @@ namespace perideal
                                                       scene.nodes->spacing,
                                                       total_damage(),
                                                       parameters.cracks.damage);
+    return true;
   }
 
   template <int dim>

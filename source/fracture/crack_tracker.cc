@@ -16,6 +16,12 @@ namespace perideal
 {
   using Json = nlohmann::ordered_json;
 
+  namespace
+  {
+    /// States of nodes without a time.
+    constexpr double is_whole = -1, is_left_out = -2;
+  } // namespace
+
   void CrackParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     using namespace dealii::Patterns;
@@ -115,8 +121,33 @@ namespace perideal
       if (open[i] && damage[i] > threshold)
         {
           open[i] = 0;
-          events.push_back({nodes.position[i], time, nodes.spacing[i]});
+          events.push_back({i, nodes.position[i], time, nodes.spacing[i]});
         }
+  }
+
+  template <int dim>
+  std::vector<double> CrackTracker<dim>::state() const
+  {
+    std::vector<double> result(open.size());
+    for (std::size_t i = 0; i < open.size(); ++i)
+      result[i] = open[i] ? is_whole : is_left_out;
+    for (const Event &event : events)
+      result[event.node] = event.time;
+    return result;
+  }
+
+  template <int dim>
+  void CrackTracker<dim>::resume(const std::vector<double> &state)
+  {
+    events.clear();
+    for (LocalIndex i = 0; i < state.size(); ++i)
+      {
+        open[i] = state[i] == is_whole;
+        if (state[i] >= 0)
+          events.push_back({i, nodes.position[i], state[i], nodes.spacing[i]});
+      }
+    std::stable_sort(
+      events.begin(), events.end(), [](const Event &a, const Event &b) { return a.time < b.time; });
   }
 
   template <int dim>

@@ -103,7 +103,7 @@ namespace perideal
                                                                       const double       time_step) const
   {
     const LocalIndex n_owned = families->n_owned();
-    NodalVector ghosted_velocity(this->partitioner);
+    NodalVector      ghosted_velocity(this->partitioner);
     std::copy(velocity.begin(), velocity.end(), ghosted_velocity.begin());
     ghosted_velocity.update_ghost_values();
     const auto velocity_of = [&](const LocalIndex i, const int d) {
@@ -159,8 +159,7 @@ namespace perideal
               }
           }
         energy += family_energy(i, after) - family_energy(i, before);
-        const States state_after  = map.states(i, after.sum),
-                     state_before = map.states(i, before.sum);
+        const States state_after = map.states(i, after.sum), state_before = map.states(i, before.sum);
         for (unsigned int a = 0; a < n_sums; ++a)
           power -= state_after[a] * after.force_rate[a] - state_before[a] * before.force_rate[a];
       }

@@ -154,20 +154,20 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
-  template void FamilyForce<dim, n_sums, own_force_weights>::set_critical_stretch(                           \
-    const BondForce<dim>::CriticalStretch &);                                                                \
-  template void FamilyForce<dim, n_sums, own_force_weights>::cut(                                            \
-    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &);                    \
-  template void FamilyForce<dim, n_sums, own_force_weights>::lose(                                           \
-    const BondIndex, const LocalIndex, std::vector<double> &);                                               \
-  template void FamilyForce<dim, n_sums, own_force_weights>::break_bonds(                                    \
-    const LocalIndex, const BondIndex, const Lanes &);                                                       \
-  template GlobalIndex           FamilyForce<dim, n_sums, own_force_weights>::n_broken_now() const;          \
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                   \
+  template void FamilyForce<dim, n_sums, own_force_weights>::set_critical_stretch(                             \
+    const BondForce<dim>::CriticalStretch &);                                                                  \
+  template void FamilyForce<dim, n_sums, own_force_weights>::cut(                                              \
+    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &);                      \
+  template void FamilyForce<dim, n_sums, own_force_weights>::lose(                                             \
+    const BondIndex, const LocalIndex, std::vector<double> &);                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::break_bonds(                                      \
+    const LocalIndex, const BondIndex, const Lanes &);                                                         \
+  template GlobalIndex           FamilyForce<dim, n_sums, own_force_weights>::n_broken_now() const;            \
   template LocalIndex            FamilyForce<dim, n_sums, own_force_weights>::near_end(const BondIndex) const; \
-  template std::vector<BondEnds> FamilyForce<dim, n_sums, own_force_weights>::broken_bonds() const;          \
-  template void FamilyForce<dim, n_sums, own_force_weights>::restore_broken(const std::vector<BondEnds> &);  \
-  template std::vector<double> FamilyForce<dim, n_sums, own_force_weights>::share_of_family(                 \
+  template std::vector<BondEnds> FamilyForce<dim, n_sums, own_force_weights>::broken_bonds() const;            \
+  template void FamilyForce<dim, n_sums, own_force_weights>::restore_broken(const std::vector<BondEnds> &);    \
+  template std::vector<double> FamilyForce<dim, n_sums, own_force_weights>::share_of_family(                   \
     const std::vector<double> &) const;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE

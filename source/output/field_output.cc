@@ -77,6 +77,13 @@ namespace perideal
   }
 
   template <int dim>
+  void FieldOutput<dim>::resume(const std::vector<double> &times)
+  {
+    for (std::size_t k = 0; k < times.size(); ++k)
+      written.emplace_back(times[k], filename(k + 1));
+  }
+
+  template <int dim>
   void FieldOutput<dim>::write(const unsigned int step, const double time)
   {
     const std::string name = filename(step);

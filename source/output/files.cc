@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -89,6 +90,39 @@ namespace perideal
         separator = ",";
       }
     out << '\n';
+  }
+
+  std::vector<std::string> read_csv_header(const std::string &line)
+  {
+    std::vector<std::string> names(1);
+    bool                     quoted = false;
+    for (std::size_t k = 0; k < line.size(); ++k)
+      if (line[k] == '"' && quoted && k + 1 < line.size() && line[k + 1] == '"')
+        names.back() += line[k++];
+      else if (line[k] == '"')
+        quoted = !quoted;
+      else if (line[k] == ',' && !quoted)
+        names.emplace_back();
+      else
+        names.back() += line[k];
+    return names;
+  }
+
+  std::vector<double> read_csv_row(const std::string &line)
+  {
+    std::vector<double> values;
+    const char         *at = line.c_str();
+    while (true)
+      {
+        char        *end   = nullptr;
+        const double value = std::strtod(at, &end);
+        if (end == at)
+          return values;
+        values.push_back(value);
+        if (*end != ',')
+          return values;
+        at = end + 1;
+      }
   }
 
   void write_csv(const std::string                      &path,

@@ -11,13 +11,44 @@
 
 namespace perideal
 {
-  History::History(const std::string &directory, MPI_Comm communicator)
+  History::History(const std::string &directory, MPI_Comm communicator, const double last_step)
     : directory(directory)
     , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     create_output_directory(directory, communicator);
+    if (is_writer && last_step >= 0)
+      read_rows(last_step);
+    column_names = dealii::Utilities::MPI::broadcast(communicator, column_names, 0);
+    columns.resize(column_names.size());
     if (is_writer)
-      csv.open(directory + "/history.csv");
+      csv.open(directory + "/history.csv", columns.empty() ? std::ios::out : std::ios::app);
+  }
+
+  void History::read_rows(const double last_step)
+  {
+    const std::string        path = directory + "/history.csv";
+    std::ifstream            file(path);
+    std::string              line;
+    std::vector<std::string> names;
+    if (std::getline(file, line))
+      names = read_csv_header(line);
+    std::vector<std::vector<double>> rows;
+    while (std::getline(file, line))
+      {
+        const std::vector<double> row = read_csv_row(line);
+        // The last line may be a part.
+        if (row.size() == names.size() && !row.empty() && row.front() <= last_step)
+          rows.push_back(row);
+      }
+    file.close();
+    if (rows.empty())
+      return;
+    column_names = names;
+    columns.resize(names.size());
+    for (const auto &row : rows)
+      for (std::size_t column = 0; column < row.size(); ++column)
+        columns[column].push_back(row[column]);
+    write_csv(path, names, rows);
   }
 
   History::~History()

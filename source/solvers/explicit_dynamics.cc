@@ -76,6 +76,28 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<double> ExplicitDynamics<dim>::energy_shares() const
+  {
+    return {damped, external_work, next_damped, next_external_work};
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::resume(const unsigned int         step,
+                                     const GlobalIndex          n_broken,
+                                     const double               dissipated_energy,
+                                     const std::vector<double> &energy_shares)
+  {
+    AssertDimension(energy_shares.size(), 4);
+    n_steps            = step;
+    broken             = n_broken;
+    dissipated         = dissipated_energy;
+    damped             = energy_shares[0];
+    external_work      = energy_shares[1];
+    next_damped        = energy_shares[2];
+    next_external_work = energy_shares[3];
+  }
+
+  template <int dim>
   EnergyBudget ExplicitDynamics<dim>::energy() const
   {
     const MPI_Comm communicator = displacement.get_mpi_communicator();

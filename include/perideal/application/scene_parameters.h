@@ -47,6 +47,17 @@ namespace perideal
     void declare(dealii::ParameterHandler &prm);
   };
 
+  /// Section "Checkpoints".
+  struct CheckpointParameters
+  {
+    /// Steps between two checkpoints; 0: only when the program is asked to stop.
+    unsigned int steps = 0;
+    /// Whether to go on from the last one.
+    bool restart = false;
+
+    void declare(dealii::ParameterHandler &prm);
+  };
+
   /// Everything a `.prm` file can say.
   struct SceneParameters
   {
@@ -68,6 +79,7 @@ namespace perideal
     InitialParameters    initial;
     PrecrackParameters   precracks;
     CrackParameters      cracks;
+    CheckpointParameters checkpoints;
     ComparisonParameters comparison;
 
     /// Declares all parameters, reads the values and checks their ranges.

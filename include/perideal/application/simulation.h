@@ -5,6 +5,7 @@
 #include <perideal/application/scene_parameters.h>
 #include <perideal/application/scene_state.h>
 #include <perideal/base/timing.h>
+#include <perideal/output/checkpoint.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
 #include <perideal/solvers/explicit_dynamics.h>
@@ -15,6 +16,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace perideal
 {
@@ -69,9 +71,14 @@ namespace perideal
     void   prepare_dynamics();
     double choose_time_step();
     void   make_cracks_and_limits();
-    void   run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
-    void   record_dynamics(const ExplicitDynamics<dim> &dynamics);
-    void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    /// False when the program was asked to stop.
+    bool run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
+    void record_dynamics(const ExplicitDynamics<dim> &dynamics);
+    void write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    void save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step);
+    /// Reads the last checkpoint and holds its scene against this one.
+    void open_checkpoint();
+    void resume(ExplicitDynamics<dim> &dynamics);
     /// Share of the family behind broken bonds and precracks, by owned node.
     std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
@@ -92,6 +99,10 @@ namespace perideal
     NodalVector                displacement, external_force;
     /// Of dynamics so far, which their drift is measured by [J].
     double largest_energy = 0;
+    /// Of the field files so far [s].
+    std::vector<double> frame_times;
+    /// What this run goes on from, if it does.
+    std::unique_ptr<Checkpoint> resumed;
 
     std::unique_ptr<History>          history;
     std::unique_ptr<FieldOutput<dim>> field_output;

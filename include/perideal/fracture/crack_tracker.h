@@ -60,6 +60,12 @@ namespace perideal
     /// @param damage of owned nodes, by precracks and since
     void update(const double time, const std::vector<double> &damage);
 
+    /// What it knows of owned nodes: the time of damage, or that they are whole or left out (negative
+    /// numbers).
+    std::vector<double> state() const;
+    /// Goes on from the state of an earlier run.
+    void resume(const std::vector<double> &state);
+
     /**
      * By crack: first_time [s]; angle [degrees] between its direction so far and the line of least squares
      * through its nodes; speed [m/s], the slope of its reach; reach [m]; arrivals [s] at the distances asked
@@ -77,13 +83,14 @@ namespace perideal
     /// A damaged node.
     struct Event
     {
+      LocalIndex         node;
       dealii::Point<dim> position;
       double             time, spacing;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &position &time &spacing;
+        archive &node &position &time &spacing;
       }
     };
 

@@ -57,6 +57,9 @@ namespace perideal
     /// zz in 2-D, which plane strain needs.)
     void add_tensor(const std::string &name, const std::vector<dealii::SymmetricTensor<2, 3>> &values);
 
+    /// Goes on with a series of which an earlier run wrote the steps 1, 2, ... at these times [s].
+    void resume(const std::vector<double> &times);
+
     /// Writes the fields added since the last write, and forgets them. Collective.
     /// @param step number in the file name @param time for the .pvd [s]
     /// @throws ComputationError when a file cannot be written.

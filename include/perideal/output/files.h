@@ -30,6 +30,11 @@ namespace perideal
   /// One line of a CSV file of numbers with the 17 digits that make reading exact.
   void write_csv_row(std::ostream &out, const std::vector<double> &values);
 
+  /// What write_csv_header() and write_csv_row() wrote, from a line without its end; a row stops at what is
+  /// no number.
+  std::vector<std::string> read_csv_header(const std::string &line);
+  std::vector<double>      read_csv_row(const std::string &line);
+
   /// A whole CSV file, as replace_file(). For one rank.
   void write_csv(const std::string                      &path,
                  const std::vector<std::string>         &header,

@@ -21,9 +21,10 @@ namespace perideal
   class History
   {
   public:
-    /// Begins a new history.csv. Collective.
+    /// Begins a new history.csv, or goes on with the one there. Collective.
+    /// @param last_step of the rows to keep, by their first column; negative: a new history
     /// @throws InputError when the directory cannot be written.
-    History(const std::string &directory, MPI_Comm communicator);
+    History(const std::string &directory, MPI_Comm communicator, const double last_step = -1);
 
     /// Calls finish(), so that what was computed stays when an error ends the run.
     ~History();
@@ -48,6 +49,9 @@ namespace perideal
     void finish();
 
   private:
+    /// Rank 0: takes the rows of the history.csv there.
+    void read_rows(const double last_step);
+
     std::string   directory;
     bool          is_writer;
     bool          is_finished = false;

@@ -56,6 +56,16 @@ namespace perideal
     /// Moves on by one step.
     void advance();
 
+    /// This rank's shares of the energies so far [J], which their sum over ranks is to be kept of in a
+    /// checkpoint.
+    std::vector<double> energy_shares() const;
+    /// Goes on with the displacement and velocity given, as after advance().
+    /// @param energy_shares as they were; another number of ranks may have other shares of the same sums
+    void resume(const unsigned int         step,
+                const GlobalIndex          n_broken,
+                const double               dissipated_energy,
+                const std::vector<double> &energy_shares);
+
     double       time() const { return n_steps * time_step; }
     unsigned int step() const { return n_steps; }
 
@@ -64,6 +74,7 @@ namespace perideal
     /// Forces of the supports at the present time [N], zero in free components.
     const NodalVector &reaction() const { return support_force; }
     GlobalIndex        n_broken() const { return broken; }
+    double             dissipated_energy() const { return dissipated; }
     GlobalIndex        n_broken_now() const { return newly_broken; }
 
     /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),

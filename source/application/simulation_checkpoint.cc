@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/nodes/cell_keys.h>
+#include <perideal/output/summary.h>
+
+#include <algorithm>
+
+// Simulation: dynamics are stopped and go on.
+
+namespace perideal
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    /// Parameters that may differ between a run and the one that goes on from it.
+    bool may_change(const std::string &path)
+    {
+      for (const char *start : {"/Output directory", "/Output/", "/Checkpoints/", "/Solver/End time"})
+        if (path.compare(0, std::string(start).size(), start) == 0)
+          return true;
+      return false;
+    }
+
+    /// @throws InputError naming the first parameter that two scenes do not agree on.
+    void compare_scenes(const Json &earlier, const Json &now)
+    {
+      const Json a = earlier.flatten(), b = now.flatten();
+      for (const auto &[one, other] : {std::pair<const Json &, const Json &>(a, b), {b, a}})
+        for (const auto &item : one.items())
+          if (!may_change(item.key()) && (!other.contains(item.key()) || other[item.key()] != item.value()))
+            {
+              const auto text = [&](const Json &scene) {
+                return scene.contains(item.key()) ? scene[item.key()].get<std::string>() : std::string("nothing");
+              };
+              throw InputError("the checkpoint belongs to another scene")
+                .parameter(item.key().substr(1))
+                .given(text(b))
+                .allowed(text(a) + ", as in the run that wrote the checkpoint")
+                .hint("only Output directory, Output, Solver/End time and Checkpoints may change");
+            }
+    }
+
+    /// Owned nodes and ghosts. Collective.
+    template <int dim>
+    CheckpointNodes
+    checkpoint_nodes(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const Families<dim> &families)
+    {
+      CheckpointNodes result{cell_keys(mesh, nodes), {}, nodes.size(), nodes.n_global, nodes.communicator};
+      // Halves of keys are exact as doubles.
+      NodalVector halves(families.make_partitioner(2));
+      for (LocalIndex i = 0; i < nodes.size(); ++i)
+        {
+          halves.local_element(2 * i)     = static_cast<double>(result.key[i] >> 32);
+          halves.local_element(2 * i + 1) = static_cast<double>(result.key[i] & 0xffffffffu);
+        }
+      halves.update_ghost_values();
+      for (LocalIndex i = 0; i < families.n_local(); ++i)
+        {
+          result.number.push_back(families.global_number(i));
+          if (i >= nodes.size())
+            result.key.push_back((static_cast<std::uint64_t>(halves.local_element(2 * i)) << 32) |
+                                 static_cast<std::uint64_t>(halves.local_element(2 * i + 1)));
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step)
+  {
+    const Timings::Scope scope(timings, "output");
+    Checkpoint           checkpoint;
+    checkpoint.header = {{"step", dynamics.step()},
+                         {"time", dynamics.time()},
+                         {"time step", time_step},
+                         {"broken bonds", dynamics.n_broken()},
+                         {"dissipated energy", dynamics.dissipated_energy()},
+                         {"largest energy", largest_energy},
+                         {"frames", frame_times},
+                         {"damage", summary["damage"]},
+                         {"energy", summary["energy"]},
+                         {"parameters", context.parameters}};
+    checkpoint.fields["displacement"].assign(dynamics.displacement.begin(), dynamics.displacement.end());
+    checkpoint.fields["velocity"].assign(dynamics.velocity.begin(), dynamics.velocity.end());
+    if (scene.crack_tracker)
+      checkpoint.fields["crack"] = scene.crack_tracker->state();
+    checkpoint.shares = dynamics.energy_shares();
+    checkpoint.broken = scene.force->broken_bonds();
+    write_checkpoint(parameters.output_directory,
+                     checkpoint,
+                     checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families));
+  }
+
+  template <int dim>
+  void Simulation<dim>::open_checkpoint()
+  {
+    resumed = std::make_unique<Checkpoint>(read_checkpoint(
+      parameters.output_directory, checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families)));
+    compare_scenes(resumed->header.at("parameters"), context.parameters);
+    const double time = resumed->header.at("time").template get<double>();
+    if (!(time < parameters.solver.end_time))
+      throw InputError("the checkpoint is at the end already")
+        .parameter("Solver/End time")
+        .allowed("more than " + short_number(time) + " s");
+    screen << "restart     from step " << resumed->header.at("step").template get<unsigned int>()
+           << ", t = " << short_number(time) << " s" << std::endl;
+  }
+
+  template <int dim>
+  void Simulation<dim>::resume(ExplicitDynamics<dim> &dynamics)
+  {
+    const Json &header = resumed->header;
+    const auto  take   = [&](const std::string &name, auto &values) {
+      std::copy(resumed->fields.at(name).begin(), resumed->fields.at(name).end(), values.begin());
+    };
+    take("displacement", dynamics.displacement);
+    take("velocity", dynamics.velocity);
+    dynamics.resume(header.at("step").template get<unsigned int>(),
+                    header.at("broken bonds").template get<GlobalIndex>(),
+                    header.at("dissipated energy").template get<double>(),
+                    resumed->shares);
+    if (scene.crack_tracker)
+      scene.crack_tracker->resume(resumed->fields.at("crack"));
+    scene.force->restore_broken(resumed->broken);
+
+    largest_energy = header.at("largest energy").template get<double>();
+    frame_times    = header.at("frames").template get<std::vector<double>>();
+    field_output->resume(frame_times);
+    summary["damage"] = header.at("damage");
+    summary["energy"] = header.at("energy");
+    resumed.reset();
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &, const double);               \
+  template void Simulation<dim>::open_checkpoint();                                                          \
+  template void Simulation<dim>::resume(ExplicitDynamics<dim> &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal
