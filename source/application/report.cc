@@ -61,7 +61,7 @@ namespace perideal
     const auto breaks = [](const MaterialProperties &m) {
       return m.fracture_energy > 0 || m.critical_stretch > 0;
     };
-    return parameters.solver.is_dynamic() &&
+    return (parameters.solver.is_dynamic() || parameters.solver.is_relaxation()) &&
            (breaks(parameters.material.body) ||
             std::any_of(parameters.material.groups.begin(),
                         parameters.material.groups.end(),
@@ -85,8 +85,11 @@ namespace perideal
       }
     else
       {
-        result["mass and velocity (statics)"]            = 2 * dim * nodes;
-        result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
+        result["mass and velocity (statics)"] = 2 * dim * nodes;
+        if (parameters.solver.is_relaxation())
+          result["matrix, preconditioner (relaxation)"] = 1;
+        else
+          result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
       }
     if (alone)
       result["halo exchange (one rank)"] = 1;
@@ -124,6 +127,8 @@ namespace perideal
     out << '\n';
     if (scene.linear_solver)
       out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
+    if (parameters.solver.is_relaxation())
+      out << "solver      dynamic relaxation in " << parameters.solver.load_steps << " load step(s)\n";
     out << "not needed ";
     const Json  skipped   = list_skipped(parameters, scene);
     const char *separator = " ";
@@ -254,17 +259,29 @@ namespace perideal
     if (std::abs(energy["drift"].get<double>()) > 0.01)
       out << "warning     the energy is off by more than 1 %: take a smaller time step, or a form that has "
              "an energy\n";
-    const Json &damage = summary.at("damage");
-    if (damage["broken_bonds"].get<GlobalIndex>() > 0)
-      out << "damage      " << grouped(damage["broken_bonds"].get<GlobalIndex>())
-          << " broken bonds, the first at " << number(damage["first_break_time"], 1) << " s; "
-          << damage["fragments"].size() << " piece(s)\n";
+    out << describe_damage(summary, " s");
     if (summary.contains("cracks"))
       for (const auto &crack : summary["cracks"].items())
         out << "crack       " << crack.key() << ": from " << number(crack.value()["first_time"], 1)
             << " s on, reach " << number(crack.value()["reach"], 1) << " m, angle "
             << number(crack.value()["angle"], 1) << " degrees, speed " << number(crack.value()["speed"], 1)
             << " m/s\n";
+    return out.str();
+  }
+
+  std::string describe_damage(const Json &summary, const std::string &unit)
+  {
+    std::ostringstream out;
+    const Json         damage = summary.value("damage", Json::object());
+    if (damage.value("broken_bonds", GlobalIndex(0)) > 0)
+      {
+        out << "damage      " << grouped(damage["broken_bonds"].get<GlobalIndex>())
+            << " broken bonds, the first at " << short_number(damage["first_break_time"].get<double>())
+            << unit;
+        if (damage.contains("fragments"))
+          out << "; " << damage["fragments"].size() << " piece(s)";
+        out << '\n';
+      }
     return out.str();
   }
 

@@ -141,10 +141,12 @@ namespace perideal
   void SceneParameters::resolve()
   {
     if (model.form == "automatic")
-      model.form = solver.is_dynamic() ? "energy" : "consistent";
+      model.form = solver.is_dynamic() || solver.is_relaxation() ? "energy" : "consistent";
     model.resolve(dimension);
     if (solver.is_dynamic())
       check_dynamics();
+    else if (solver.is_relaxation())
+      check_relaxation();
     else
       check_statics();
     const bool   consistent = model.is_consistent();
@@ -193,7 +195,7 @@ namespace perideal
       throw InputError("boundary stresses are those of statics").parameter("Output/Boundary stress");
   }
 
-  void SceneParameters::check_statics() const
+  void SceneParameters::check_no_motion() const
   {
     const auto complain = [](const std::string &parameter) {
       throw InputError("this belongs to dynamics").parameter(parameter).hint("set Solver/Name = dynamics");
@@ -207,6 +209,42 @@ namespace perideal
         if (!initial.velocity[d].empty())
           complain(std::string("Initial conditions/v_") + axes[d]);
       }
+  }
+
+  void SceneParameters::check_relaxation() const
+  {
+    if (model.is_consistent())
+      throw InputError("the consistent form is one of linear statics")
+        .parameter("Material/Form")
+        .given(model.form)
+        .allowed("automatic | energy | paper in dynamic relaxation");
+    const std::string &treatment = loads.displacement_treatment;
+    if (treatment != "automatic" && treatment != "layer")
+      throw InputError("dynamic relaxation holds the nodes at a boundary")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer in dynamic relaxation");
+    check_no_motion();
+    for (const std::string &field : field_names())
+      if (field == "velocity")
+        throw InputError("this field belongs to dynamics")
+          .parameter("Output/Fields")
+          .given(field)
+          .hint("remove it, or set Solver/Name = dynamics");
+    if ((comparison.fem || comparison.reference) && !precracks.cracks.empty())
+      throw InputError("the finite elements that the solution would be compared with have no cracks")
+        .parameter(comparison.fem ? "Comparison/FEM" : "Comparison/Reference")
+        .hint("set it to false, or remove the section Precracks");
+  }
+
+  void SceneParameters::check_statics() const
+  {
+    const auto complain = [](const std::string &parameter) {
+      throw InputError("this belongs to dynamics and dynamic relaxation")
+        .parameter(parameter)
+        .hint("set Solver/Name = dynamics, or = dynamic relaxation");
+    };
+    check_no_motion();
     for (const std::string &field : field_names())
       if (field == "velocity" || field == "damage" || field == "precracks")
         throw InputError("this field belongs to dynamics")

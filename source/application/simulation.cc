@@ -43,6 +43,11 @@ namespace perideal
         run_dynamics();
         return;
       }
+    if (parameters.solver.is_relaxation())
+      {
+        run_relaxation();
+        return;
+      }
     find_free_motions();
     prepare_comparisons();
     weigh_bonds();
@@ -277,6 +282,8 @@ namespace perideal
              << describe_boundary_stress(summary["boundary_stress"]);
     if (status == "done" && parameters.solver.is_dynamic())
       screen << describe_motion(summary);
+    if (parameters.solver.is_relaxation())
+      screen << describe_damage(summary, "");
     if (result.contains("errors") && !result["errors"].empty())
       screen << '\n' << error_table(result["errors"]);
     screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;

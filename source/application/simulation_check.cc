@@ -19,6 +19,8 @@ namespace perideal
     make_nodes_and_families();
     if (parameters.solver.is_dynamic())
       prepare_dynamics();
+    if (parameters.solver.is_relaxation())
+      prepare_cracks();
     weigh_bonds();
     screen << banner(parameters, scene);
 
@@ -26,7 +28,9 @@ namespace perideal
       scene.families->memory_consumption() + scene.bonds->memory_consumption(), communicator);
     screen << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
            << short_number(static_cast<double>(bytes) / scene.nodes->n_global) << " B a node"
-           << (parameters.solver.is_dynamic() ? "" : "; the preconditioner takes about as much again")
+           << (parameters.solver.is_dynamic() || parameters.solver.is_relaxation() ?
+                 "" :
+                 "; the preconditioner takes about as much again")
            << '\n';
     const auto density = [&](const dealii::types::material_id id) { return properties_of(id).density; };
     screen << "time step   " << short_number(stable_time_step(*scene.system, density))

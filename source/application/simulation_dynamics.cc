@@ -83,6 +83,12 @@ namespace perideal
                                                          std::string("Initial conditions/v_") + axes[d]);
     if (dim == 2 && !parameters.initial.velocity[2].empty())
       throw InputError("a two-dimensional scene has no z component").parameter("Initial conditions/v_z");
+    prepare_cracks();
+  }
+
+  template <int dim>
+  void Simulation<dim>::prepare_cracks()
+  {
     for (const PrecrackText &text : parameters.precracks.cracks)
       scene.precracks.emplace_back(text);
     if (!parameters.cracks.cracks.empty())
@@ -314,7 +320,10 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template double Simulation<dim>::critical_stretch(const dealii::types::material_id, const double) const;   \
   template void   Simulation<dim>::prepare_dynamics();                                                       \
-  template void   Simulation<dim>::run_dynamics();
+  template void   Simulation<dim>::prepare_cracks();                                                         \
+  template void   Simulation<dim>::make_cracks_and_limits();                                                 \
+  template std::vector<double> Simulation<dim>::total_damage() const;                                        \
+  template void                Simulation<dim>::run_dynamics();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -173,7 +173,7 @@ namespace perideal
   {
     broken_now.clear();
     import_positions(displacement);
-    const bool can_break = !critical_stretch.empty();
+    const bool can_break = judges_bonds && !critical_stretch.empty();
     if constexpr (n_sums > 0)
       {
         if (can_break)

@@ -22,16 +22,22 @@ namespace perideal
     prm.add_parameter(
       "Name",
       name,
-      "What is solved: static: equilibrium under the final loads; dynamics: motion from t = 0 to End time, "
-      "explicit, geometrically nonlinear, in which bonds break where a fracture energy or critical "
-      "stretch is given",
-      Selection("static|dynamics"));
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Residual over the first residual at which a linear solve ends, 0 < tolerance < 1 [-]",
-                      Double());
+      "What is solved: static: equilibrium under the final loads; dynamic relaxation: equilibria under Load "
+      "steps, geometrically nonlinear, in which bonds break where a fracture energy or critical stretch is "
+      "given; dynamics: motion from t = 0 to End time, explicit, otherwise as dynamic relaxation",
+      Selection("static|dynamic relaxation|dynamics"));
     prm.add_parameter(
-      "Maximum iterations", max_iterations, "Iterations after which a linear solve has failed", Integer(1));
+      "Tolerance",
+      tolerance,
+      "Residual over the first residual at which a linear solve ends, or over the norm of loads "
+      "or reactions at which dynamic relaxation does, 0 < tolerance < 1 [-]",
+      Double());
+    prm.add_parameter(
+      "Maximum iterations",
+      max_iterations,
+      "Iterations after which a linear solve has failed, or an equilibrium of dynamic relaxation; there they "
+      "are counted anew after every break",
+      Integer(1));
     prm.add_parameter(
       "Linear solver",
       linear_solver,

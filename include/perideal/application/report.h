@@ -73,9 +73,12 @@ namespace perideal
     bool          printed = false;
   };
 
-  /// Energies, broken bonds and cracks at the end of dynamics, and a warning where the energy does not
+  /// Energies, damage and cracks at the end of dynamics, and a warning where the energy does not
   /// balance. @param summary as in summary.json
   std::string describe_motion(const nlohmann::ordered_json &summary);
+
+  /// Broken bonds and pieces; empty where nothing broke. @param unit of the time of the first break
+  std::string describe_damage(const nlohmann::ordered_json &summary, const std::string &unit);
 } // namespace perideal
 
 #endif

@@ -93,9 +93,12 @@ namespace perideal
     /// @throws InputError on choices that do not go together.
     void resolve();
 
-    /// @throws InputError on what does not go with dynamics, or with statics.
+    /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
     void check_dynamics() const;
+    void check_relaxation() const;
     void check_statics() const;
+    /// @throws InputError on prescribed or initial velocities.
+    void check_no_motion() const;
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;

@@ -69,7 +69,7 @@ namespace perideal
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
     std::unique_ptr<LinearSolver<dim>>        linear_solver;
 
-    // Dynamics alone have these.
+    // Dynamics have these, and relaxation those of failure.
     std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
     std::vector<Precrack<dim>>              precracks;
     std::unique_ptr<CrackTracker<dim>>      crack_tracker;

@@ -8,6 +8,7 @@
 #include <perideal/output/checkpoint.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
+#include <perideal/solvers/dynamic_relaxation.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <deal.II/base/conditional_ostream.h>
@@ -69,6 +70,7 @@ namespace perideal
 
     void   run_dynamics();
     void   prepare_dynamics();
+    void   prepare_cracks();
     double choose_time_step();
     void   make_cracks_and_limits();
     /// False when the program was asked to stop.
@@ -79,6 +81,11 @@ namespace perideal
     /// Reads the last checkpoint and holds its scene against this one.
     void open_checkpoint();
     void resume(ExplicitDynamics<dim> &dynamics);
+    void run_relaxation();
+    void relax_step(const unsigned int number, DynamicRelaxation<dim> &relaxation);
+    void record_relaxation(const unsigned int            number,
+                           const RelaxedStep            &result,
+                           const DynamicRelaxation<dim> &relaxation);
     /// Share of the family behind broken bonds and precracks, by owned node.
     std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.

@@ -31,6 +31,10 @@ namespace perideal
     /// From now on bonds break.
     virtual void set_critical_stretch(const CriticalStretch &stretch) = 0;
 
+    /// Whether compute() looks for bonds to break, as it does at first. A solver that goes through
+    /// states which are no motion of the body lets it look at equilibrium only.
+    virtual void judge_bonds(const bool judge) = 0;
+
     /// Takes out the bonds that @p cut (the positions of its ends) is true for, apart from damage.
     virtual void
     cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) = 0;

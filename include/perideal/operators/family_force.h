@@ -28,6 +28,7 @@ namespace perideal
     explicit FamilyForce(const Weights &weights);
 
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void judge_bonds(const bool judge) override { judges_bonds = judge; }
     void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
     GlobalIndex           n_broken_now() const override;
@@ -129,6 +130,7 @@ namespace perideal
     std::vector<double> rest_length;
     /// Stretches at which bonds break, by slot; empty where nothing breaks.
     std::vector<float>  critical_stretch;
+    bool                judges_bonds = true;
     RestRegions         regions;
     std::vector<double> family_volume, broken_volume, cut_volume;
 

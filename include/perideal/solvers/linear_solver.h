@@ -35,6 +35,7 @@ namespace perideal
     double damping = 0;
 
     bool is_dynamic() const { return name == "dynamics"; }
+    bool is_relaxation() const { return name == "dynamic relaxation"; }
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError on choices that do not go together.

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/advice.h>
+#include <perideal/application/report.h>
+#include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/fracture/fragments.h>
+#include <perideal/output/summary.h>
+
+#include <deal.II/base/mpi.h>
+
+// Simulation: equilibria of the nonlinear force by dynamic relaxation, with failure.
+
+namespace perideal
+{
+  template <int dim>
+  void Simulation<dim>::run_relaxation()
+  {
+    prepare_cracks();
+    find_free_motions();
+    prepare_comparisons();
+    weigh_bonds();
+    {
+      const Timings::Scope scope(timings, "setup");
+      scene.force = create_bond_force<dim>(scene.weights);
+      make_cracks_and_limits();
+    }
+    summary["solver"]["name"] = "dynamic relaxation";
+    screen << banner(parameters, scene) << std::flush;
+    for (const std::string &warning : warnings(parameters, scene))
+      screen << "warning     " << warning << std::endl;
+    check_loads();
+
+    history      = std::make_unique<History>(parameters.output_directory, communicator);
+    field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
+                                                      *scene.nodes,
+                                                      parameters.output_directory,
+                                                      parameters.solver.load_steps > 1 ? OutputSteps::series :
+                                                                                         OutputSteps::single);
+    if (scene.crack_tracker)
+      scene.crack_tracker->start(scene.force->cut_share());
+    try
+      {
+        typename DynamicRelaxation<dim>::Controls controls;
+        controls.tolerance      = parameters.solver.tolerance;
+        controls.max_iterations = parameters.solver.max_iterations;
+        controls.bonds_break    = can_break(parameters);
+        DynamicRelaxation<dim> relaxation(*scene.force, *scene.system, scene.held, scene.loads, controls);
+        for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
+          relax_step(number, relaxation);
+      }
+    catch (const ComputationError &)
+      {
+        finish("failed");
+        throw;
+      }
+    finish("done");
+  }
+
+  template <int dim>
+  void Simulation<dim>::relax_step(const unsigned int number, DynamicRelaxation<dim> &relaxation)
+  {
+    const double time          = static_cast<double>(number) / parameters.solver.load_steps;
+    summary["solver"]["steps"] = number;
+    RelaxedStep result;
+    {
+      const Timings::Scope scope(timings, "solve");
+      apply_loads(time);
+      scene.null_space.project(external_force);
+      ProgressLine progress(screen.get_stream(),
+                            screen.is_active(),
+                            "load step " + std::to_string(number) + " of " +
+                              std::to_string(parameters.solver.load_steps) + ", " +
+                              std::to_string(relaxation.n_broken()) + " broken bonds",
+                            parameters.solver.tolerance);
+      result = relaxation.relax(external_force, time, [&](const unsigned int iteration, const double r) {
+        progress(iteration, r);
+      });
+    }
+    displacement = relaxation.displacement;
+    store_displacement();
+    record_relaxation(number, result, relaxation);
+    if (!result.converged)
+      throw ComputationError(
+        "dynamic relaxation stopped in load step " + std::to_string(number) + ", t = " + short_number(time) +
+        ", after " + std::to_string(result.iterations) + " iterations at a relative residual of " +
+        short_number(result.residuals.back()) + ", not at " + short_number(parameters.solver.tolerance) +
+        ", with " + std::to_string(relaxation.n_broken()) +
+        " broken bonds\n  advice: raise Solver/Maximum iterations; a body that broke apart under forces has "
+        "no equilibrium: prescribe displacements instead, or take Solver/Name = dynamics");
+    write_fields(number, time);
+  }
+
+  template <int dim>
+  void Simulation<dim>::record_relaxation(const unsigned int            number,
+                                          const RelaxedStep            &result,
+                                          const DynamicRelaxation<dim> &relaxation)
+  {
+    const double time = static_cast<double>(number) / parameters.solver.load_steps;
+    summary["solver"]["iterations"].push_back(result.iterations);
+    summary["solver"]["converged"] = result.converged;
+    history->add_series("residuals of step " + std::to_string(number), result.residuals);
+
+    const EnergyBudget &energy = relaxation.energy();
+    largest_energy             = std::max({largest_energy, std::abs(energy.external), energy.strain});
+    const double drift         = largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
+    history->add("step", number);
+    history->add("time [s]", time);
+    history->add("iterations", result.iterations);
+    history->add("residual [-]", result.residuals.back());
+    history->add("strain energy [J]", energy.strain);
+    history->add("dissipated energy [J]", energy.dissipated);
+    history->add("external work [J]", energy.external);
+    history->add("drift [-]", drift);
+    history->add("broken bonds", relaxation.n_broken());
+    const auto             sums   = scene.held.sum_by_condition(relaxation.reaction(), communicator);
+    const char            *axes[] = {"x", "y", "z"};
+    nlohmann::ordered_json reactions;
+    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
+      if (scene.loads.conditions[k].prescribes_displacement())
+        for (int d = 0; d < dim; ++d)
+          {
+            const std::string &name = scene.loads.conditions[k].name;
+            history->add("reaction of " + name + " along " + axes[d] + " [N]", sums[k][d]);
+            reactions[name].push_back(sums[k][d]);
+            // The load that the body bore at most.
+            auto &largest = summary["largest_reactions"][name];
+            if (largest.size() <= static_cast<unsigned int>(d))
+              largest.push_back(sums[k][d]);
+            else if (std::abs(sums[k][d]) > std::abs(largest[d].template get<double>()))
+              largest[d] = sums[k][d];
+          }
+    history->end_row();
+    summary["reactions"] = reactions;
+    summary["energy"]    = {{"strain", energy.strain},
+                            {"dissipated", energy.dissipated},
+                            {"external", energy.external},
+                            {"drift", drift}};
+    if (!can_break(parameters))
+      return;
+    if (result.broken > 0 && !summary["damage"].contains("first_break_time"))
+      summary["damage"]["first_break_time"] = time;
+    summary["damage"]["broken_bonds"] = relaxation.n_broken();
+    if (result.broken == 0 && summary["damage"].contains("fragments"))
+      return;
+    const std::vector<double> damage = total_damage();
+    summary["damage"]["fragments"] =
+      find_fragments(*scene.families, scene.nodes->spacing, damage, parameters.cracks.damage);
+    if (scene.crack_tracker)
+      {
+        scene.crack_tracker->update(time, damage);
+        summary["cracks"] = scene.crack_tracker->describe();
+      }
+  }
+
+#define PERIDEAL_INSTANTIATE(dim) template void Simulation<dim>::run_relaxation();
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal
