@@ -50,7 +50,7 @@ namespace perideal
         else
           screen << "no fracture energy given, unbreakable\n";
       }
-    if (!parameters.solver.is_dynamic())
+    if (!parameters.solver.is_dynamic() && !parameters.solver.is_relaxation())
       {
         if (!scene.gradient)
           make_gradient();

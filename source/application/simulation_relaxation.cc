@@ -8,10 +8,40 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+
 // Simulation: equilibria of the nonlinear force by dynamic relaxation, with failure.
 
 namespace perideal
 {
+  namespace
+  {
+    /// Forces of the supports, and the largest so far: what the body bore.
+    template <int dim>
+    void record_reactions(const Loads<dim>                          &loads,
+                          const std::vector<dealii::Tensor<1, dim>> &sums,
+                          History                                   &history,
+                          nlohmann::ordered_json                    &summary)
+    {
+      const char            *axes[]    = {"x", "y", "z"};
+      nlohmann::ordered_json reactions = nlohmann::ordered_json::object();
+      for (std::size_t k = 0; k < loads.conditions.size(); ++k)
+        if (loads.conditions[k].prescribes_displacement())
+          for (int d = 0; d < dim; ++d)
+            {
+              const std::string &name = loads.conditions[k].name;
+              history.add("reaction of " + name + " along " + axes[d] + " [N]", sums[k][d]);
+              reactions[name].push_back(sums[k][d]);
+              auto &largest = summary["largest_reactions"][name];
+              if (largest.size() <= static_cast<std::size_t>(d))
+                largest.push_back(sums[k][d]);
+              else if (std::abs(sums[k][d]) > std::abs(largest[d].template get<double>()))
+                largest[d] = sums[k][d];
+            }
+      summary["reactions"] = reactions;
+    }
+  } // namespace
+
   template <int dim>
   void Simulation<dim>::run_relaxation()
   {
@@ -72,9 +102,8 @@ namespace perideal
                               std::to_string(parameters.solver.load_steps) + ", " +
                               std::to_string(relaxation.n_broken()) + " broken bonds",
                             parameters.solver.tolerance);
-      result = relaxation.relax(external_force, time, [&](const unsigned int iteration, const double r) {
-        progress(iteration, r);
-      });
+      result = relaxation.relax(
+        external_force, time, [&](const unsigned int iteration, const double r) { progress(iteration, r); });
     }
     displacement = relaxation.displacement;
     store_displacement();
@@ -112,29 +141,13 @@ namespace perideal
     history->add("external work [J]", energy.external);
     history->add("drift [-]", drift);
     history->add("broken bonds", relaxation.n_broken());
-    const auto             sums   = scene.held.sum_by_condition(relaxation.reaction(), communicator);
-    const char            *axes[] = {"x", "y", "z"};
-    nlohmann::ordered_json reactions;
-    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
-      if (scene.loads.conditions[k].prescribes_displacement())
-        for (int d = 0; d < dim; ++d)
-          {
-            const std::string &name = scene.loads.conditions[k].name;
-            history->add("reaction of " + name + " along " + axes[d] + " [N]", sums[k][d]);
-            reactions[name].push_back(sums[k][d]);
-            // The load that the body bore at most.
-            auto &largest = summary["largest_reactions"][name];
-            if (largest.size() <= static_cast<unsigned int>(d))
-              largest.push_back(sums[k][d]);
-            else if (std::abs(sums[k][d]) > std::abs(largest[d].template get<double>()))
-              largest[d] = sums[k][d];
-          }
+    record_reactions<dim>(
+      scene.loads, scene.held.sum_by_condition(relaxation.reaction(), communicator), *history, summary);
     history->end_row();
-    summary["reactions"] = reactions;
-    summary["energy"]    = {{"strain", energy.strain},
-                            {"dissipated", energy.dissipated},
-                            {"external", energy.external},
-                            {"drift", drift}};
+    summary["energy"] = {{"strain", energy.strain},
+                         {"dissipated", energy.dissipated},
+                         {"external", energy.external},
+                         {"drift", drift}};
     if (!can_break(parameters))
       return;
     if (result.broken > 0 && !summary["damage"].contains("first_break_time"))

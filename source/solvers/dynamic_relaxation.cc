@@ -139,8 +139,8 @@ namespace perideal
     broke_in_step = false;
     stop_motion();
 
-    // Positions y are rounded by eps |y|; forces that stay were measured to be twice what that makes of masses
-    // at most.
+    // Positions y are rounded by eps |y|; forces that stay were measured to be twice what that makes of
+    // masses at most.
     double sum = 0;
     for (std::size_t k = 0; k < rest_position.size(); ++k)
       {
@@ -173,7 +173,7 @@ namespace perideal
   {
     std::array<double, 8> sums    = {};
     const auto           &is_held = held.mask();
-    const double *f = force.begin(), *p = external.begin(), *before = earlier_force.begin(),
+    const double         *f = force.begin(), *p = external.begin(), *before = earlier_force.begin(),
                  *v = velocity.begin(), *m = mass.begin(), *u = displacement.begin(), *u0 = anchor.begin(),
                  *f0 = anchor_force.begin();
     for (std::size_t k = 0; k < is_held.size(); ++k)
@@ -272,8 +272,9 @@ namespace perideal
     double      work    = 0;
     for (std::size_t k = 0; k < is_held.size(); ++k)
       {
-        const double p = external.local_element(k), support = is_held[k] ? -internal.local_element(k) - p : 0.;
-        const double moved = displacement.local_element(k) - last_displacement.local_element(k);
+        const double p       = external.local_element(k),
+                     support = is_held[k] ? -internal.local_element(k) - p : 0.;
+        const double moved   = displacement.local_element(k) - last_displacement.local_element(k);
         work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
         support_force.local_element(k) = support;
         increment.local_element(k) += moved;

@@ -104,7 +104,7 @@ namespace perideal
     Timings                    timings;
     SceneState<dim>            scene;
     NodalVector                displacement, external_force;
-    /// Of dynamics so far, which their drift is measured by [J].
+    /// Of dynamics or relaxation so far, which their drift is measured by [J].
     double largest_energy = 0;
     /// Of the field files so far [s].
     std::vector<double> frame_times;

@@ -30,15 +30,15 @@ namespace perideal
    * Masses, one a component: M = lambda D/4 with D the diagonal of the linear operator at rest and lambda
    * an upper estimate of the largest eigenvalue of D^-1 K, the smallest masses for which
    * a unit step is stable. XOSB's row sums of another model's stiffness (eq. 79) are no bound. Where
-   * the motion itself shows a quotient v.Kv/v.Mv above 4, because bonds turned, stiffened or broke, the masses
-   * grow.
+   * the motion itself shows a quotient v.Kv/v.Mv above 4, because bonds turned, stiffened or broke, the
+   * masses grow.
    *
    * Damping c = 2 omega (Underwood), with omega^2 = d.Kd/d.Md, where K d is what the forces changed by
-   * during the motion d since some 1/omega iterations ago; 0 where that is negative, at most 1.9. XOSB's quotients
-   * by component and iteration (eqs. 77, 78), which divide by velocities, take as many iterations until
-   * rounding spoils them: 1,152 nodes under a strain of 1e-7 came to a residual of 1e-7 in 620
-   * iterations, by eq. 77 not in 6,000. Scalar masses by node, the largest of its diagonal, took up to 10 per
-   * cent more iterations than masses by component and made the bound on their eigenvalues less safe.
+   * during the motion d since some 1/omega iterations ago; 0 where that is negative, at most 1.9. XOSB's
+   * quotients by component and iteration (eqs. 77, 78), which divide by velocities, take as many iterations
+   * until rounding spoils them: 1,152 nodes under a strain of 1e-7 came to a residual of 1e-7 in 620
+   * iterations, by eq. 77 not in 6,000. Masses by node, the largest of its diagonal, took 1 to 4 per cent
+   * more iterations than masses by component, and ten Lanczos steps once underestimated their lambda.
    *
    * The iterations grow with the length of a body in cells: 212, 444 and 892 for plates with 1,920, 7,680
    * and 30,720 nodes to 1e-6, 2.4 to 2.5 times those of conjugate gradients with block Jacobi.
@@ -77,8 +77,8 @@ namespace perideal
                       const Controls                 &controls);
 
     /**
-     * Goes on to the equilibrium at a time, from where the last step ended, moved on as that step moved unless
-     * bonds broke in it. A failure is reported, not thrown. Collective.
+     * Goes on to the equilibrium at a time, from where the last step ended, moved on as that step moved
+     * unless bonds broke in it. A failure is reported, not thrown. Collective.
      * @param external force of the loads at that time [N]
      */
     RelaxedStep relax(const NodalVector &external, const double time, const Progress &progress);
@@ -131,7 +131,7 @@ namespace perideal
     NodalVector  anchor, anchor_force;
     unsigned int since_anchor = 0;
     bool         in_motion = false, anchor_is_start = true;
-    double       damping   = 0;
+    double       damping = 0;
     /// Norm of the forces that rounding the positions makes [N].
     double rounding = 0;
 

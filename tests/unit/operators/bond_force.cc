@@ -236,6 +236,26 @@ TEST(BondForce, CutsBondsApartFromDamage)
     }
 }
 
+/// A force that is told not to judge breaks nothing, however far bonds are stretched, until it is told to.
+TEST(BondForce, BreaksOnlyWhenItJudges)
+{
+  const auto mesh = test::make_box<2>({8, 7}, {1., 1.}, 0.2);
+  for (const Variant &variant : variants)
+    {
+      LooseBody<2> loose(*mesh, variant), whole(*mesh, variant);
+      loose.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.04; });
+      loose.bonds->judge_bonds(false);
+      const auto motion = rough<2>(0.01, 6);
+      loose.force_of(motion);
+      EXPECT_EQ(loose.bonds->n_broken_now(), 0u);
+      loose.force -= whole.force_of(motion);
+      EXPECT_EQ(loose.force.linfty_norm(), 0.);
+      loose.bonds->judge_bonds(true);
+      loose.force_of(motion);
+      EXPECT_GT(loose.bonds->n_broken_now(), 0u);
+    }
+}
+
 /// What has not moved is left out, and the forces are the same.
 TEST(BondForce, LeavesOutWhatIsAtRest)
 {

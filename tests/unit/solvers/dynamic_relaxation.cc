@@ -216,8 +216,8 @@ TEST(DynamicRelaxation, EnlargesMassesThatAreTooSmall)
   const auto mesh = test::make_box<2>({10, 8}, {1., 0.8}, 0.2);
   for (const Variant &variant : variants)
     {
-      HeldBody<2> held(*mesh, variant, {condition("0", {"0", "0"}), condition("1", {"1e-3"})});
-      const auto  soft = held.make_system(held.weigh(variant, 0.1));
+      HeldBody<2>          held(*mesh, variant, {condition("0", {"0", "0"}), condition("1", {"1e-3"})});
+      const auto           soft = held.make_system(held.weigh(variant, 0.1));
       DynamicRelaxation<2> misled(*held.bonds, *soft, held.held, held.loads, {1e-8, 5000, false});
       EXPECT_TRUE(misled.relax(held.load, 1., no_progress).converged);
       auto right = held.relaxation();
