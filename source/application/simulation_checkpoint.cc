@@ -32,7 +32,8 @@ namespace perideal
           if (!may_change(item.key()) && (!other.contains(item.key()) || other[item.key()] != item.value()))
             {
               const auto text = [&](const Json &scene) {
-                return scene.contains(item.key()) ? scene[item.key()].get<std::string>() : std::string("nothing");
+                return scene.contains(item.key()) ? scene[item.key()].get<std::string>() :
+                                                    std::string("nothing");
               };
               throw InputError("the checkpoint belongs to another scene")
                 .parameter(item.key().substr(1))
@@ -88,9 +89,8 @@ namespace perideal
       checkpoint.fields["crack"] = scene.crack_tracker->state();
     checkpoint.shares = dynamics.energy_shares();
     checkpoint.broken = scene.force->broken_bonds();
-    write_checkpoint(parameters.output_directory,
-                     checkpoint,
-                     checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families));
+    write_checkpoint(
+      parameters.output_directory, checkpoint, checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families));
   }
 
   template <int dim>

@@ -51,7 +51,7 @@ namespace perideal
     weigh_bonds();
     {
       const Timings::Scope scope(timings, "setup");
-      scene.force = create_bond_force<dim>(scene.weights);
+      scene.force = create_bond_force<dim>(*scene.weights);
       make_cracks_and_limits();
     }
     summary["solver"]["name"] = "dynamic relaxation";
@@ -156,8 +156,8 @@ namespace perideal
     if (result.broken == 0 && summary["damage"].contains("fragments"))
       return;
     const std::vector<double> damage = total_damage();
-    summary["damage"]["fragments"] =
-      find_fragments(*scene.families, scene.nodes->spacing, damage, parameters.cracks.damage);
+    summary["damage"]["fragments"]   = find_fragments(
+      *scene.families, scene.force->bond_list(), scene.nodes->spacing, damage, parameters.cracks.damage);
     if (scene.crack_tracker)
       {
         scene.crack_tracker->update(time, damage);

@@ -123,7 +123,7 @@ namespace perideal
         header["fields"][name] = width_of(values, nodes);
       const std::string               text = header.dump();
       const std::vector<unsigned int> letters(text.begin(), text.end());
-      const bool                      is_first = dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0;
+      const bool is_first = dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0;
       write_table(file, "header", letters, {0, is_first ? letters.size() : 0, letters.size(), 1});
     }
 
@@ -234,7 +234,8 @@ namespace perideal
       for (LocalIndex i = 0; i < nodes.number.size(); ++i)
         local[nodes.number[i]] = i;
       for (std::size_t k = 0; k < halves.size(); k += 4)
-        checkpoint.broken.push_back({local.at(join(halves.data() + k)), local.at(join(halves.data() + k + 2))});
+        checkpoint.broken.push_back(
+          {local.at(join(halves.data() + k)), local.at(join(halves.data() + k + 2))});
     }
   } // namespace
 
@@ -248,11 +249,10 @@ namespace perideal
     if (!is_whole(path, checkpoint, nodes))
       throw ComputationError("cannot write '" + path + "': is the disk full?");
     if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0)
-      replace_file(directory + "/checkpoint.json",
-                   Json{{"file", name},
-                        {"step", checkpoint.header.at("step")},
-                        {"time", checkpoint.header.at("time")}}
-                     .dump(1));
+      replace_file(
+        directory + "/checkpoint.json",
+        Json{{"file", name}, {"step", checkpoint.header.at("step")}, {"time", checkpoint.header.at("time")}}
+          .dump(1));
   }
 
   Checkpoint read_checkpoint(const std::string &directory, const CheckpointNodes &nodes)
@@ -272,14 +272,14 @@ namespace perideal
     result.header = read_header(file);
     if (!result.header.is_object())
       throw no_restart("the checkpoint cannot be read", path);
-    const auto   local    = find_nodes(file, nodes);
-    unsigned int is_there = result.header.value("nodes", GlobalIndex(0)) == nodes.n_global &&
-                            local.size() == nodes.key.size();
+    const auto   local = find_nodes(file, nodes);
+    unsigned int is_there =
+      result.header.value("nodes", GlobalIndex(0)) == nodes.n_global && local.size() == nodes.key.size();
     if (dealii::Utilities::MPI::min(is_there, communicator) == 0)
       throw no_restart("the checkpoint belongs to another mesh", path);
 
-    unsigned int same = result.header.at("broken by rank").size() ==
-                        dealii::Utilities::MPI::n_mpi_processes(communicator);
+    unsigned int same =
+      result.header.at("broken by rank").size() == dealii::Utilities::MPI::n_mpi_processes(communicator);
     for (LocalIndex i = 0; i < nodes.n_owned; ++i)
       {
         const auto found = local.find(nodes.number[i]);

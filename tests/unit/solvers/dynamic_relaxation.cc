@@ -46,7 +46,7 @@ namespace
       held            = HeldNodes<dim>(
         find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size());
       weights = weigh(variant, 1.);
-      bonds   = create_bond_force<dim>(weights);
+      bonds   = create_bond_force<dim>(*weights);
       system  = make_system(weights);
       bonds->initialize(load);
     }

@@ -6,6 +6,7 @@
 #include "testing.h"
 
 #include <cmath>
+#include <map>
 
 using namespace perideal;
 
@@ -194,5 +195,93 @@ TEST(ExplicitDynamics, BalancesWorkAndDamping)
           dynamics.advance();
         }
       EXPECT_GT(dynamics.energy().damped, 0.1 * largest);
+    }
+}
+
+/// Short waves are slower: in a row of nodes with constant micromodulus c^2/c0^2 = 4/(k d)^2 times the
+/// integral of (1 - cos x)/x from 0 to k d.
+TEST(ExplicitDynamics, DispersesWavesAsTheHorizonSays)
+{
+  const double horizon = 15.; // cells
+  const auto   mesh    = test::make_box<2>({1400, 1}, {1400., 1.}, 0.);
+  MovingBody   moving(*mesh, "bond based", {}, horizon + 0.01);
+  // Of a standing wave, until it is flat for the first time; the ends are too far away to be felt.
+  const auto speed = [&](const double kd) {
+    const double k        = kd / horizon;
+    auto         dynamics = moving.dynamics(0.25);
+    LocalIndex   middle   = 0;
+    for (LocalIndex i = 0; i < moving.body.nodes.size(); ++i)
+      {
+        const double x                         = moving.body.nodes.position[i][0] - 700.5;
+        dynamics.velocity.local_element(2 * i) = 1e-8 * std::cos(k * x);
+        if (std::abs(x) < 0.1)
+          middle = i;
+      }
+    double before = 1;
+    while (true)
+      {
+        dynamics.evaluate(moving.no_load);
+        const double now = dynamics.velocity.local_element(2 * middle);
+        if (now < 0)
+          // Velocities are those of half a step later.
+          return dealii::numbers::PI / 2 / (k * 0.25 * (dynamics.step() + 0.5 - now / (now - before)));
+        before = now;
+        dynamics.advance();
+      }
+  };
+  const double long_wave = speed(0.1) / 0.99979;
+  EXPECT_NEAR(speed(0.5) / long_wave, 0.9948, 0.005);
+  EXPECT_NEAR(speed(1.) / long_wave, 0.9794, 0.005);
+  EXPECT_NEAR(speed(2.) / long_wave, 0.9205, 0.005);
+}
+
+/// What is symmetric stays so: displacements until the first bond breaks, the tips of a crack to a cell
+/// afterwards.
+TEST(ExplicitDynamics, KeepsSymmetry)
+{
+  for (const std::string model : {"bond based", "extended ordinary"})
+    {
+      const auto mesh = test::make_box<2>({60, 24}, {60., 24.}, 0.);
+      MovingBody moving(*mesh, model, {}, 3.01);
+      moving.bonds->cut([](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+        return (a[1] - 12.) * (b[1] - 12.) < 0 && std::min(a[0], b[0]) < 30.;
+      });
+      moving.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 4e-3; });
+      const auto &position = moving.body.nodes.position;
+      auto        dynamics = moving.dynamics(0.3);
+      for (LocalIndex i = 0; i < position.size(); ++i)
+        dynamics.velocity.local_element(2 * i + 1) = 4e-4 * (position[i][1] - 12.);
+      std::map<std::pair<int, int>, LocalIndex> at;
+      for (LocalIndex i = 0; i < position.size(); ++i)
+        at[{std::lround(2 * position[i][0]), std::lround(2 * position[i][1])}] = i;
+
+      for (unsigned int n = 0; n < 600; ++n)
+        {
+          dynamics.evaluate(moving.no_load);
+          if (dynamics.n_broken() == 0)
+            {
+              double largest = 0, difference = 0;
+              for (const auto &[where, i] : at)
+                {
+                  const LocalIndex j = at.at({where.first, 48 - where.second});
+                  const auto       u = [&](const LocalIndex node, const int d) {
+                    return dynamics.displacement.local_element(2 * node + d);
+                  };
+                  largest = std::max(largest, std::abs(u(i, 1)));
+                  difference =
+                    std::max({difference, std::abs(u(i, 0) - u(j, 0)), std::abs(u(i, 1) + u(j, 1))});
+                }
+              ASSERT_LE(difference, 1e-9 * largest) << model << n;
+            }
+          dynamics.advance();
+        }
+      // A tip in either half: the farthest node with much damage.
+      double     tip[2] = {0, 0};
+      const auto damage = moving.bonds->damage();
+      for (LocalIndex i = 0; i < position.size(); ++i)
+        if (damage[i] > 0.3)
+          tip[position[i][1] > 12.] = std::max(tip[position[i][1] > 12.], position[i][0]);
+      EXPECT_GT(tip[0], 33.) << model;
+      EXPECT_LE(std::abs(tip[0] - tip[1]), 1.) << model;
     }
 }
