@@ -90,7 +90,7 @@ namespace perideal
   void Simulation<dim>::prepare_cracks()
   {
     for (const PrecrackText &text : parameters.precracks.cracks)
-      scene.precracks.emplace_back(text);
+      scene.precracks.emplace_back(text, *scene.mesh);
     if (!parameters.cracks.cracks.empty())
       scene.crack_tracker = std::make_unique<CrackTracker<dim>>(parameters.cracks, *scene.nodes);
   }

@@ -76,6 +76,7 @@ namespace perideal
 
     auto mesh = std::make_unique<Mesh<dim>>(communicator);
     take_groups(coarse, *mesh);
+    mesh->inner_faces = std::move(coarse.inner_faces);
     for (const auto &cylinder : parameters.cylinders)
       coarse.cylinders[mesh->boundary_id(cylinder.first, "Mesh/Cylinders")] = cylinder.second;
     check_cylinders(coarse);

@@ -60,6 +60,30 @@ namespace perideal
   }
 
   template <int dim>
+  const std::vector<std::vector<dealii::Point<dim>>> &
+  Mesh<dim>::inner_group(const std::string &name, const std::string &parameter) const
+  {
+    const auto found = inner_faces.find(name);
+    if (found != inner_faces.end())
+      return found->second;
+    const std::string kind = dim == 2 ? "curve" : "surface";
+    if (boundary_names.count(name) > 0)
+      throw InputError("this physical " + kind + " bounds the body: there is nothing on its other side")
+        .parameter(parameter)
+        .given(name)
+        .allowed("a physical " + kind + " inside the body");
+    std::vector<std::string> choices;
+    for (const auto &group : inner_faces)
+      choices.push_back(group.first);
+    throw InputError("the mesh has no physical " + kind + " of this name inside the body")
+      .parameter(parameter)
+      .given(name)
+      .allowed(choices.empty() ? "the mesh has none; name one in its file, along sides of cells" :
+                                 join_choices(choices))
+      .nearest(nearest_name(name, choices));
+  }
+
+  template <int dim>
   dealii::types::material_id Mesh<dim>::material_id(const std::string &name_or_id,
                                                     const std::string &parameter) const
   {

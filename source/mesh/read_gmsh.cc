@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/mesh/gmsh_inner_faces.h>
 #include <perideal/mesh/gmsh_scan.h>
 #include <perideal/mesh/read_gmsh.h>
 
@@ -22,6 +23,47 @@ namespace perideal
         message += (message.empty() ? "" : " ") + word;
       return message;
     }
+
+    /// Lets deal.II read; its complaint, or nothing.
+    template <int dim>
+    std::string problem_of_reading(const std::string &text, dealii::Triangulation<dim> &triangulation)
+    {
+      dealii::GridIn<dim> reader(triangulation);
+      std::istringstream  stream(text);
+      try
+        {
+          reader.read_msh(stream);
+        }
+      catch (const dealii::ExceptionBase &exception)
+        {
+          triangulation.clear();
+          return message_of(exception);
+        }
+      return "";
+    }
+
+    /// Keeps the groups inside the body as geometry, apart from those of the boundary.
+    template <int dim>
+    void keep_inner_faces(const GmshInnerFaces &inner, GmshContents &contents, InnerFaces<dim> &groups)
+    {
+      for (const auto &[tag, faces] : inner.by_tag)
+        {
+          std::string name = std::to_string(tag);
+          for (const auto &group : contents.face_groups)
+            if (group.second == tag)
+              name = group.first;
+          contents.face_groups.erase(name);
+          contents.faces_by_tag.erase(tag);
+          for (const auto &face : faces)
+            {
+              std::vector<dealii::Point<dim>> corners(face.size());
+              for (std::size_t k = 0; k < face.size(); ++k)
+                for (int d = 0; d < dim; ++d)
+                  corners[k][d] = face[k][d];
+              groups[name].push_back(corners);
+            }
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -29,24 +71,23 @@ namespace perideal
   {
     GmshContents contents = scan_gmsh(text, filename, dim);
 
-    dealii::GridIn<dim> reader(mesh.triangulation);
-    std::istringstream  stream(text);
-    try
+    const auto is_inner = [](const std::string &problem) {
+      return problem.find("internal face") != std::string::npos;
+    };
+    std::string problem = problem_of_reading(text, mesh.triangulation);
+    if (is_inner(problem))
       {
-        reader.read_msh(stream);
+        const GmshInnerFaces inner = take_out_inner_faces(text, filename, dim, contents.face_groups);
+        keep_inner_faces(inner, contents, mesh.inner_faces);
+        problem = problem_of_reading(inner.text, mesh.triangulation);
       }
-    catch (const dealii::ExceptionBase &exception)
-      {
-        const std::string problem     = message_of(exception);
-        const bool        is_interior = problem.find("internal face") != std::string::npos;
-        throw InputError("deal.II cannot make a mesh of this file: " + problem)
-          .location(filename)
-          .parameter("Mesh/File")
-          .hint(is_interior ?
-                  "keep curves and surfaces inside the body out of physical groups, and put the body "
-                  "into one: without any group, Gmsh saves the inner ones too" :
-                  "");
-      }
+    if (!problem.empty())
+      throw InputError("deal.II cannot make a mesh of this file: " + problem)
+        .location(filename)
+        .parameter("Mesh/File")
+        .hint(is_inner(problem) ? "keep curves inside a three-dimensional body out of physical groups, and "
+                                  "put the body into one: without any group, Gmsh saves the inner ones too" :
+                                  "");
 
     for (const auto &group : contents.cell_groups)
       mesh.material_names[group.first] = group.second;

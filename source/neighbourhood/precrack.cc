@@ -6,56 +6,65 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
-
 namespace perideal
 {
   namespace
   {
-    /// How far beyond its end a crack still cuts, over its size: bonds through the tip are cut.
-    constexpr double tip_tolerance = 1e-9;
-
-    bool crosses_segment(const dealii::Point<2> &p,
-                         const dealii::Point<2> &q,
-                         const dealii::Point<2> &a,
-                         const dealii::Point<2> &b)
+    template <int dim>
+    std::vector<Facet<dim>> facets_of_points(const std::string &text, const std::string &parameter)
     {
-      const auto along = q - p;
-      const auto side  = [&](const dealii::Point<2> &x) {
-        return along[0] * (x - p)[1] - along[1] * (x - p)[0];
-      };
-      const double at_a = side(a), at_b = side(b);
-      if ((at_a < 0) == (at_b < 0))
-        return false;
-      const auto   crossing = a + at_a / (at_a - at_b) * (b - a);
-      const double position = (crossing - p) * along / along.norm_square();
-      return position >= -tip_tolerance && position <= 1 + tip_tolerance;
+      std::vector<dealii::Point<dim>> points;
+      for (const std::string &point : dealii::Utilities::split_string_list(text, ';'))
+        points.push_back(read_point<dim>(point, parameter));
+      if (points.size() < dim)
+        throw InputError(dim == 2 ? "a crack in 2-D needs two points or more" :
+                                    "a crack in 3-D needs three points or more")
+          .parameter(parameter)
+          .given(text);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k)
+        if (points[k].distance(points[k + 1]) == 0)
+          throw InputError("a crack has the same point twice in a row").parameter(parameter).given(text);
+      std::vector<Facet<dim>> result;
+      if (dim == 3)
+        result.emplace_back(points);
+      else
+        for (std::size_t k = 0; k + 1 < points.size(); ++k)
+          result.emplace_back(std::vector<dealii::Point<dim>>{points[k], points[k + 1]});
+      if (dim == 3 && !result[0].is_valid())
+        throw InputError("the points of a crack in 3-D must make a plane polygon")
+          .parameter(parameter)
+          .given(text);
+      return result;
     }
 
-    /// Whether a point of the plane of a polygon is inside or on its edge.
-    bool is_inside(const std::vector<dealii::Point<3>> &polygon,
-                   const dealii::Tensor<1, 3>          &normal,
-                   const double                         size,
-                   const dealii::Point<3>              &x)
+    /// The sides of quadrilaterals as they are; those of hexahedra, which need not be plane, as two
+    /// triangles.
+    template <int dim>
+    std::vector<Facet<dim>> facets_of_group(const std::vector<std::vector<dealii::Point<dim>>> &faces)
     {
-      // Drop the coordinate along which the plane is seen best.
-      unsigned int largest = 0;
-      for (unsigned int d = 1; d < 3; ++d)
-        if (std::abs(normal[d]) > std::abs(normal[largest]))
-          largest = d;
-      const unsigned int u = (largest + 1) % 3, v = (largest + 2) % 3;
-      bool               inside = false;
-      for (std::size_t k = 0; k < polygon.size(); ++k)
-        {
-          const auto  &p = polygon[k], &q = polygon[(k + 1) % polygon.size()];
-          const auto   edge     = q - p;
-          const double position = std::clamp((x - p) * edge / edge.norm_square(), 0., 1.);
-          if (x.distance(p + position * edge) <= tip_tolerance * size)
-            return true;
-          if ((p[v] > x[v]) != (q[v] > x[v]) && x[u] < p[u] + (x[v] - p[v]) / (q[v] - p[v]) * (q[u] - p[u]))
-            inside = !inside;
-        }
-      return inside;
+      std::vector<Facet<dim>> result;
+      for (const auto &face : faces)
+        if (dim == 2)
+          result.emplace_back(face);
+        else
+          for (const unsigned int k : {1, 2})
+            result.emplace_back(std::vector<dealii::Point<dim>>{face[0], face[k], face[k + 1]});
+      return result;
+    }
+
+    template <int dim>
+    std::vector<Facet<dim>> facets_of(const PrecrackText &text, const Mesh<dim> &mesh)
+    {
+      const std::string section = "Precracks/" + text.name;
+      if (text.points.empty() == text.boundary.empty())
+        throw InputError(text.points.empty() ?
+                           "a precrack needs either points or a group of the mesh" :
+                           "a precrack has either points or a group of the mesh, not both")
+          .parameter(section)
+          .hint(text.points.empty() ? "set Points, or Boundary" : "remove Points, or Boundary");
+      return text.boundary.empty() ?
+               facets_of_points<dim>(text.points, section + "/Points") :
+               facets_of_group<dim>(mesh.inner_group(text.boundary, section + "/Boundary"));
     }
   } // namespace
 
@@ -75,60 +84,20 @@ namespace perideal
           crack.points,
           "Points separated by semicolons, their coordinates [m] by commas: in 2-D of a line, "
           "in 3-D of a plane polygon; bonds that cross it are cut");
+        prm.add_parameter(
+          "Boundary",
+          crack.boundary,
+          "Instead of points: physical curve (in 3-D surface) inside the body of a mesh file, "
+          "along sides of cells; bonds that cross these are cut");
         prm.leave_subsection();
       }
     prm.leave_subsection();
   }
 
   template <int dim>
-  Precrack<dim>::Precrack(const PrecrackText &text)
+  Precrack<dim>::Precrack(const PrecrackText &text, const Mesh<dim> &mesh)
+    : facets(facets_of(text, mesh))
   {
-    const std::string parameter = "Precracks/" + text.name + "/Points";
-    for (const std::string &point : dealii::Utilities::split_string_list(text.points, ';'))
-      points.push_back(read_point<dim>(point, parameter));
-    if (points.size() < dim)
-      throw InputError(dim == 2 ? "a crack in 2-D needs two points or more" :
-                                  "a crack in 3-D needs three points or more")
-        .parameter(parameter)
-        .given(text.points);
-    for (std::size_t k = 0; k + 1 < points.size(); ++k)
-      if (points[k].distance(points[k + 1]) == 0)
-        throw InputError("a crack has the same point twice in a row").parameter(parameter).given(text.points);
-    for (const auto &point : points)
-      size = std::max(size, point.distance(points[0]));
-    if constexpr (dim == 3)
-      {
-        for (std::size_t k = 1; k + 1 < points.size(); ++k)
-          normal += cross_product_3d(points[k] - points[0], points[k + 1] - points[0]);
-        const double area = normal.norm();
-        if (area > 0)
-          normal /= area;
-        const bool plane = std::all_of(points.begin(), points.end(), [&](const auto &point) {
-          return std::abs((point - points[0]) * normal) <= 1e-6 * size;
-        });
-        if (!(area > 1e-12 * size * size) || !plane)
-          throw InputError("the points of a crack in 3-D must make a plane polygon")
-            .parameter(parameter)
-            .given(text.points);
-      }
-  }
-
-  template <int dim>
-  bool Precrack<dim>::crosses(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const
-  {
-    if constexpr (dim == 2)
-      {
-        for (std::size_t k = 0; k + 1 < points.size(); ++k)
-          if (crosses_segment(points[k], points[k + 1], a, b))
-            return true;
-        return false;
-      }
-    else
-      {
-        const double at_a = (a - points[0]) * normal, at_b = (b - points[0]) * normal;
-        return (at_a < 0) != (at_b < 0) &&
-               is_inside(points, normal, size, a + at_a / (at_a - at_b) * (b - a));
-      }
   }
 
   template class Precrack<2>;

@@ -22,6 +22,7 @@ namespace perideal
 
     std::map<std::string, dealii::types::boundary_id> boundary_names;
     std::map<std::string, dealii::types::material_id> material_names;
+    InnerFaces<dim>                                   inner_faces;
     Cylinders                                         cylinders;
 
     /// The mesh file or the name of the generator.

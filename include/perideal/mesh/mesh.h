@@ -17,6 +17,10 @@ namespace perideal
   /// 2-D), with the axis point (x, y) [m].
   using Cylinders = std::map<dealii::types::boundary_id, dealii::Point<2>>;
 
+  /// Groups of faces inside a body by name; of each face the corners around it [m].
+  template <int dim>
+  using InnerFaces = std::map<std::string, std::vector<std::vector<dealii::Point<dim>>>>;
+
   /// The user's mesh: a p4est-distributed triangulation and the names of its groups.
   template <int dim>
   class Mesh
@@ -34,6 +38,9 @@ namespace perideal
     std::set<dealii::types::boundary_id> boundary_ids;
     /// Material ids that occur on the whole mesh, named or not.
     std::set<dealii::types::material_id> material_ids;
+    /// Physical groups of faces between cells, by name (by number as text where they have none): the corners
+    /// around each face [m], of the coarse mesh.
+    InnerFaces<dim> inner_faces;
     /// Curved boundaries, which refinement follows.
     Cylinders cylinders;
     /// Global refinements between the coarse mesh and the triangulation.
@@ -49,6 +56,11 @@ namespace perideal
     /// @param parameter path of the parameter that names it, for messages.
     /// @throws InputError when the mesh has no such boundary; lists those it has.
     dealii::types::boundary_id boundary_id(const std::string &name_or_id, const std::string &parameter) const;
+
+    /// The faces of a group inside the body.
+    /// @throws InputError when the mesh has no such group; lists those it has.
+    const std::vector<std::vector<dealii::Point<dim>>> &inner_group(const std::string &name,
+                                                                    const std::string &parameter) const;
 
     /// As boundary_id(), for cell groups.
     dealii::types::material_id material_id(const std::string &name_or_id, const std::string &parameter) const;

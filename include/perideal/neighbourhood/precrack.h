@@ -2,6 +2,9 @@
 #ifndef perideal_neighbourhood_precrack_h
 #define perideal_neighbourhood_precrack_h
 
+#include <perideal/mesh/facets.h>
+#include <perideal/mesh/mesh.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
@@ -18,6 +21,8 @@ namespace perideal
     std::string name;
     /// Points separated by semicolons, coordinates [m] by commas.
     std::string points;
+    /// In their place a physical curve (2-D) or surface (3-D) inside the mesh.
+    std::string boundary = "";
   };
 
   /// Section "Precracks".
@@ -30,23 +35,24 @@ namespace perideal
 
   /**
    * A crack that is there from the beginning: in 2-D a line through points, in 3-D a plane
-   * polygon. Bonds that it crosses are cut, those through its tip or edge included.
+   * polygon, or the faces of a group inside the mesh. Bonds that it crosses are cut, those through its tip or
+   * edge included.
    */
   template <int dim>
   class Precrack
   {
   public:
-    /// @throws InputError on text that is no such line or polygon.
-    explicit Precrack(const PrecrackText &text);
+    /// @throws InputError on text that is no such line, polygon or group.
+    Precrack(const PrecrackText &text, const Mesh<dim> &mesh);
 
     /// Whether the bond between two points crosses the crack.
-    bool crosses(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const;
+    bool crosses(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const
+    {
+      return facets.are_crossed(a, b);
+    }
 
   private:
-    std::vector<dealii::Point<dim>> points;
-    /// Unit normal of the polygon, and its size [m], in 3-D.
-    dealii::Tensor<1, dim> normal;
-    double                 size = 0;
+    Facets<dim> facets;
   };
 } // namespace perideal
 

@@ -139,20 +139,10 @@ TEST(ReadGmsh, RefusesEntitiesDealiiMisreads)
   expect_input_error([&] { read_text<2>(replace("$Entities", "$PartitionedEntities")); }, {"partitioned"});
 }
 
-TEST(ReadGmsh, RefusesGroupsInsideTheBody)
+TEST(ReadGmsh, TakesEdgesAndCornersOfTheSurface)
 {
-  expect_input_error(
-    [] {
-      read_text<2>(msh_22({}, two_squares, {quads[1], quads[2], "4 1 2 7 1 2 3"}));
-    },
-    {"part.msh", "inside the body out of physical groups"});
   std::vector<std::string> nodes = cube;
   nodes.insert(nodes.end(), {"9 0 0 2", "10 1 0 2", "11 1 1 2", "12 0 1 2"});
   const std::string lower = "1 5 2 9 1 1 2 3 4 5 6 7 8", upper = "2 5 2 9 1 5 6 7 8 9 10 11 12";
   read_text<3>(msh_22({}, nodes, {lower, upper, "3 3 2 7 1 1 2 3 4", "4 1 2 8 1 1 2", "5 15 2 3 1 1"}));
-  expect_input_error(
-    [&] {
-      read_text<3>(msh_22({}, nodes, {lower, upper, "3 3 2 7 1 5 6 7 8"}));
-    },
-    {"part.msh", "inside the body out of physical groups"});
 }
