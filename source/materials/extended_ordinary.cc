@@ -55,10 +55,12 @@ namespace perideal
   template <int dim>
   ExtendedOrdinary<dim>::ExtendedOrdinary(const Form               form,
                                           const InfluenceFunction &influence,
-                                          const double             thickness)
+                                          const double             thickness,
+                                          const Negative           negative)
     : form(form)
     , influence(influence)
     , thickness(thickness)
+    , negative(negative)
   {
   }
 
@@ -90,7 +92,17 @@ namespace perideal
 
     FamilyReport report;
     report.indefinite = any_negative(wd, spherical_deviatoric);
-    if (form == Form::paper)
+    if (negative == Negative::spherical)
+      {
+        report.fallback = report.indefinite || any_negative(wh, spherical);
+        if (report.fallback)
+          {
+            wh       = spherical;
+            wd       = spherical_deviatoric;
+            missed_d = 1.;
+          }
+      }
+    else if (form == Form::paper)
       report.fallback = any_negative(wh, spherical);
     else if (report.indefinite && deviatoric_conditions.correct_nonnegative(spherical_deviatoric, wd))
       missed_d = 0.;

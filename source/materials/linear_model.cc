@@ -6,9 +6,14 @@
 namespace perideal
 {
   template <int dim>
-  void FamilyView<dim>::reinit(const Families<dim> &families, const LocalIndex i)
+  void
+  FamilyView<dim>::reinit(const Families<dim> &families, const LocalIndex i, const BondPredicate<dim> &is_cut)
   {
-    size        = families.size(i);
+    member.clear();
+    for (LocalIndex k = 0; k < families.size(i); ++k)
+      if (!is_cut || !is_cut(families.position[i], families.position[families.begin(i)[k]]))
+        member.push_back(k);
+    size        = static_cast<LocalIndex>(member.size());
     node_volume = families.volume[i];
     horizon     = families.horizon[i];
     for (auto &component : bond)
@@ -18,7 +23,7 @@ namespace perideal
     bond_horizon.resize(size);
     for (LocalIndex k = 0; k < size; ++k)
       {
-        const LocalIndex j  = families.begin(i)[k];
+        const LocalIndex j  = families.begin(i)[member[k]];
         const auto       xi = families.position[j] - families.position[i];
         for (int d = 0; d < dim; ++d)
           bond[d][k] = xi[d];

@@ -33,8 +33,12 @@ namespace perideal
           }},
          {"extended ordinary",
           [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
-            return std::make_unique<ExtendedOrdinary<dim>>(
-              ExtendedOrdinary<dim>::form_of(p.form), InfluenceFunction(p.influence_function), thickness);
+            return std::make_unique<ExtendedOrdinary<dim>>(ExtendedOrdinary<dim>::form_of(p.form),
+                                                           InfluenceFunction(p.influence_function),
+                                                           thickness,
+                                                           p.after_the_cut() ?
+                                                             ExtendedOrdinary<dim>::Negative::spherical :
+                                                             ExtendedOrdinary<dim>::Negative::by_form);
           }}});
       return list;
     }
@@ -70,6 +74,13 @@ namespace perideal
                       stabilisation,
                       "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
                       "in 3-D, where errors are smallest");
+    prm.add_parameter(
+      "Multipliers",
+      multipliers,
+      "Multipliers of the extended ordinary model where precracks cut bonds: intact: those of "
+      "the whole families; after the cut: those of what is left of them, with spherical "
+      "weights in families where any weight would be negative",
+      Selection("intact|after the cut"));
     prm.leave_subsection();
 
     prm.enter_subsection("Nodes");
@@ -89,6 +100,11 @@ namespace perideal
     if (stabilisation == "automatic")
       stabilisation = std::to_string(dimension == 2 ? Consistent<2>::best_stabilisation :
                                                       Consistent<3>::best_stabilisation);
+    if (after_the_cut() && (model != "extended ordinary" || is_consistent()))
+      throw InputError("this model has no multipliers that a cut could change")
+        .parameter("Material/Multipliers")
+        .given(multipliers)
+        .allowed("intact; or set Material/Model = extended ordinary with Form = energy | paper");
     char        *end   = nullptr;
     const double value = std::strtod(stabilisation.c_str(), &end);
     if (stabilisation.empty() || *end != 0 || !(value > 0) || !std::isfinite(value))

@@ -51,17 +51,20 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::cut(
-    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut)
+  GlobalIndex FamilyForce<dim, n_sums, own_force_weights>::cut(const BondPredicate<dim> &is_cut)
   {
+    // Bonds that the partition cuts stand on both ranks.
+    GlobalIndex ends = 0;
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (bonds.neighbour[slot] != i && carries_force(slot) &&
-            cut(families->position[i], families->position[bonds.neighbour[slot]]))
+        if (bonds.neighbour[slot] != i &&
+            is_cut(families->position[i], families->position[bonds.neighbour[slot]]))
           {
             remove(slot);
             lose(slot, i, cut_volume);
+            ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
+    return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -157,8 +160,7 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                   \
   template void FamilyForce<dim, n_sums, own_force_weights>::set_critical_stretch(                             \
     const BondForce<dim>::CriticalStretch &);                                                                  \
-  template void FamilyForce<dim, n_sums, own_force_weights>::cut(                                              \
-    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &);                      \
+  template GlobalIndex FamilyForce<dim, n_sums, own_force_weights>::cut(const BondPredicate<dim> &); \
   template void FamilyForce<dim, n_sums, own_force_weights>::lose(                                             \
     const BondIndex, const LocalIndex, std::vector<double> &);                                                 \
   template void FamilyForce<dim, n_sums, own_force_weights>::break_bonds(                                      \

@@ -10,15 +10,18 @@ namespace perideal
   FamilyWeights<dim, n_sums, own_force_weights>::FamilyWeights(
     const std::shared_ptr<const Families<dim>>                    &families,
     LinearModel<dim>                                              &model,
-    const std::function<Moduli(const dealii::types::material_id)> &moduli)
+    const std::function<Moduli(const dealii::types::material_id)> &moduli,
+    const BondPredicate<dim>                                      &is_cut)
     : BondWeights<dim>(families, model)
   {
-    weigh_families(model, moduli);
+    weigh_families(model, moduli, is_cut);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(
-    LinearModel<dim> &model, const std::function<Moduli(const dealii::types::material_id)> &moduli)
+    LinearModel<dim>                                              &model,
+    const std::function<Moduli(const dealii::types::material_id)> &moduli,
+    const BondPredicate<dim>                                      &is_cut)
   {
     const Families<dim> &families = *this->families;
     const BondList      &bonds    = this->bonds;
@@ -41,14 +44,14 @@ namespace perideal
     FamilyCoefficients           coefficients;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
-        view.reinit(families, i);
+        view.reinit(families, i, is_cut);
         const Moduli material = moduli(families.material[i]);
         view.bulk_modulus     = material.bulk_modulus;
         view.shear_modulus    = material.shear_modulus;
         coefficients.resize(view.size, model.shape());
         model.compute(view, coefficients);
         cursor.find(i, families.begin(i), families.end(i), ends);
-        store(i, coefficients, ends);
+        store(i, coefficients, view.member, ends);
       }
 
     // The far ends of cut bonds, and the maps of ghosts, come from their owners.
@@ -82,6 +85,7 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyWeights<dim, n_sums, own_force_weights>::store(const LocalIndex                    i,
                                                             const FamilyCoefficients           &coefficients,
+                                                            const std::vector<LocalIndex>      &member,
                                                             const std::vector<BondCursor::End> &ends)
   {
     this->reports[i] = coefficients.report;
@@ -89,9 +93,9 @@ namespace perideal
       map.entries[i] = coefficients.map;
     if constexpr (own_force_weights)
       energy[i] = coefficients.energy;
-    for (std::size_t k = 0; k < ends.size(); ++k)
+    for (std::size_t k = 0; k < member.size(); ++k)
       {
-        const BondCursor::End end = ends[k];
+        const BondCursor::End end = ends[member[k]];
         stiffness[end.slot] += coefficients.stiffness[k];
         for (unsigned int a = 0; a < n_sums; ++a)
           {
@@ -133,11 +137,12 @@ namespace perideal
   std::shared_ptr<BondWeights<dim>>
   weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
               LinearModel<dim>                                              &model,
-              const std::function<Moduli(const dealii::types::material_id)> &moduli)
+              const std::function<Moduli(const dealii::types::material_id)> &moduli,
+              const BondPredicate<dim>                                      &is_cut)
   {
     return visit_family_shape(
       model.shape(), [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
-        return std::make_shared<FamilyWeights<dim, n_sums, own>>(families, model, moduli);
+        return std::make_shared<FamilyWeights<dim, n_sums, own>>(families, model, moduli, is_cut);
       });
   }
 
@@ -150,7 +155,8 @@ namespace perideal
   template std::shared_ptr<BondWeights<dim>> weigh_bonds(                                                    \
     const std::shared_ptr<const Families<dim>> &,                                                            \
     LinearModel<dim> &,                                                                                      \
-    const std::function<Moduli(const dealii::types::material_id)> &);
+    const std::function<Moduli(const dealii::types::material_id)> &,                                         \
+    const BondPredicate<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

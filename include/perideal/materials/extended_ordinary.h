@@ -38,18 +38,31 @@ namespace perideal
       energy
     };
 
+    /// What becomes of families with negative weights.
+    enum class Negative
+    {
+      /// What the form says.
+      by_form,
+      /// Spherical weights in theta and force wherever any wh or wd is negative. Families
+      /// that a cut has made one-sided have many such, which would let deformation gain energy.
+      spherical
+    };
+
     static std::vector<std::string> form_names();
     /// @throws InputError on another name.
     static Form form_of(const std::string &name);
 
-    ExtendedOrdinary(const Form form, const InfluenceFunction &influence, const double thickness);
+    ExtendedOrdinary(const Form               form,
+                     const InfluenceFunction &influence,
+                     const double             thickness,
+                     const Negative           negative = Negative::by_form);
 
     FamilyShape shape() const override;
     bool        is_symmetric() const override { return form == Form::energy; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 
     /// The weights wh and wd of a family and what became of them; wd is
-    /// non-negative in the energy form.
+    /// non-negative in the energy form, both are with Negative::spherical.
     FamilyReport weigh(const FamilyView<dim> &family, std::vector<double> &wh, std::vector<double> &wd);
 
   private:
@@ -59,6 +72,7 @@ namespace perideal
     Form              form;
     InfluenceFunction influence;
     double            thickness;
+    Negative          negative;
 
     // Work space of one family.
     MomentConditions<dim, 2> hydrostatic_conditions;

@@ -5,6 +5,7 @@
 #include <perideal/neighbourhood/families.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace perideal
     double bulk_modulus = 0, shear_modulus = 0;
   };
 
+  /// Whether something is true of the bond between two positions, in either order.
+  template <int dim>
+  using BondPredicate = std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)>;
+
   /**
    * One family as a material sees it. Arrays run over its members.
    */
@@ -24,6 +29,8 @@ namespace perideal
   {
     /// Number of members.
     LocalIndex size = 0;
+    /// Which of the family's neighbours each is, counted from 0.
+    std::vector<LocalIndex> member;
     /// Components of the bonds xi = x_j - x_i [m].
     std::array<std::vector<double>, dim> bond;
     /// |xi|^2 [m^2].
@@ -39,7 +46,10 @@ namespace perideal
     double bulk_modulus = 0, shear_modulus = 0;
 
     /// Looks at the family of owned node @p i; the moduli are the caller's to set.
-    void reinit(const Families<dim> &families, const LocalIndex i);
+    /// @param is_cut leaves out the members behind such bonds; empty: all are there
+    void reinit(const Families<dim>      &families,
+                const LocalIndex          i,
+                const BondPredicate<dim> &is_cut = BondPredicate<dim>());
   };
 
   /// How many sums over its family a model needs before it knows bond forces,

@@ -20,16 +20,21 @@ namespace perideal
     std::string form               = "automatic";
     std::string influence_function = "automatic";
     std::string stabilisation      = "automatic";
+    /// intact | after the cut: whether multipliers are those of families with the bonds that precracks cut.
+    std::string multipliers = "intact";
 
     void declare(dealii::ParameterHandler &prm);
 
     /// Puts what serves the model best in the place of "automatic".
-    /// @throws InputError on a stabilisation that is not a positive number.
+    /// @throws InputError on a stabilisation that is not a positive number, on multipliers of a model
+    /// without.
     void resolve(const int dimension);
 
     /// The consistent form of the extended ordinary model, which needs the face
     /// gradient of the mesh and is no LinearModel.
     bool is_consistent() const { return model == "extended ordinary" && form == "consistent"; }
+
+    bool after_the_cut() const { return multipliers == "after the cut"; }
 
     /// The constants that the model has where it cannot have those asked for: a
     /// bond-based body keeps Young's modulus, Poisson's ratio is its own.

@@ -35,9 +35,9 @@ namespace perideal
     /// states which are no motion of the body lets it look at equilibrium only.
     virtual void judge_bonds(const bool judge) = 0;
 
-    /// Takes out the bonds that @p cut (the positions of its ends) is true for, apart from damage.
-    virtual void
-    cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) = 0;
+    /// Takes out bonds, apart from damage, those that were weighed as cut among them; to be called once,
+    /// before anything breaks. Returns their number on all ranks. Collective.
+    virtual GlobalIndex cut(const BondPredicate<dim> &is_cut) = 0;
 
     /// Force on the owned nodes [N]. Collective.
     /// @param displacement of owned nodes [m]

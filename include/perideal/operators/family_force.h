@@ -29,7 +29,7 @@ namespace perideal
 
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
     void judge_bonds(const bool judge) override { judges_bonds = judge; }
-    void cut(const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &cut) override;
+    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
     GlobalIndex           n_broken_now() const override;
     std::vector<BondEnds> broken_bonds() const override;

@@ -80,7 +80,8 @@ namespace perideal
     /// Weighs every family. Collective.
     FamilyWeights(const std::shared_ptr<const Families<dim>>                    &families,
                   LinearModel<dim>                                              &model,
-                  const std::function<Moduli(const dealii::types::material_id)> &moduli);
+                  const std::function<Moduli(const dealii::types::material_id)> &moduli,
+                  const BondPredicate<dim>                                      &is_cut);
 
     std::size_t memory_consumption() const override;
 
@@ -115,20 +116,26 @@ namespace perideal
 
   private:
     void weigh_families(LinearModel<dim>                                              &model,
-                        const std::function<Moduli(const dealii::types::material_id)> &moduli);
+                        const std::function<Moduli(const dealii::types::material_id)> &moduli,
+                        const BondPredicate<dim>                                      &is_cut);
     void import_maps();
+    /// @param member the ends of the bonds that the coefficients belong to
     void store(const LocalIndex                    i,
                const FamilyCoefficients           &coefficients,
+               const std::vector<LocalIndex>      &member,
                const std::vector<BondCursor::End> &ends);
   };
 
   /// Weighs every family with the model. Collective.
   /// @param moduli by material id; every material of the nodes is listed.
+  /// @param is_cut bonds that are there no more: they get no weights and the families are
+  ///   weighed without them; empty: none
   template <int dim>
   std::shared_ptr<BondWeights<dim>>
   weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
               LinearModel<dim>                                              &model,
-              const std::function<Moduli(const dealii::types::material_id)> &moduli);
+              const std::function<Moduli(const dealii::types::material_id)> &moduli,
+              const BondPredicate<dim>                                      &is_cut = BondPredicate<dim>());
 
   /// Calls a macro with every family shape there is: dim, n_sums, own_force_weights.
 #define PERIDEAL_FOR_FAMILY_SHAPES(CALL)                                                                     \

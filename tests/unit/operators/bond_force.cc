@@ -256,6 +256,109 @@ TEST(BondForce, BreaksOnlyWhenItJudges)
     }
 }
 
+/// Families that a cut has left lopsided meet the moment conditions again, as those at a surface do: each
+/// half of a body that is cut through is a body of its own, and the cut bonds count as cut.
+TEST(BondForce, WeighsFamiliesAfterTheCut)
+{
+  const auto whole  = test::make_box<2>({12, 8}, {1.2, 0.8}, 0.);
+  const auto half   = test::make_box<2>({6, 8}, {0.6, 0.8}, 0.);
+  const auto is_cut = [](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+    return (a[0] < 0.6) != (b[0] < 0.6);
+  };
+  const test::Body<2> whole_body(*whole), half_body(*half);
+  for (const std::string form : {"energy", "paper"})
+    {
+      SCOPED_TRACE(form);
+      ModelParameters parameters;
+      parameters.form        = form;
+      parameters.multipliers = "after the cut";
+      parameters.resolve(2);
+      const auto moduli = [](const dealii::types::material_id) { return Moduli{1., 0.6}; };
+      const auto weights =
+        weigh_bonds<2>(whole_body.families, *create_model<2>(parameters, 1.), moduli, is_cut);
+      const auto expected = weigh_bonds<2>(half_body.families, *create_model<2>(parameters, 1.), moduli);
+      // The right half is the mirror image of the left one.
+      EXPECT_EQ(weights->counts.fallback, 2 * expected->counts.fallback);
+      EXPECT_GT(expected->counts.fallback, 0u);
+      EXPECT_LT(expected->counts.fallback, 48u);
+
+      auto               bonds    = create_bond_force<2>(*weights);
+      const auto         alone    = create_bond_force<2>(*expected);
+      GlobalIndex        n_cut    = 0;
+      const Families<2> &families = *whole_body.families;
+      for (LocalIndex i = 0; i < families.n_owned(); ++i)
+        for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+          n_cut += is_cut(families.position[i], families.position[*j]);
+      n_cut = dealii::Utilities::MPI::sum(n_cut, MPI_COMM_WORLD) / 2;
+      EXPECT_GT(n_cut, 0u);
+      EXPECT_EQ(bonds->cut(is_cut), n_cut);
+
+      // A deformation of the left half pulls there as in the body that is nothing else.
+      const auto motion = [](const dealii::Point<2> &x, const int d) {
+        return 1e-2 * test::scatter(x, 7 + d);
+      };
+      NodalVector force, displacement, force_alone, displacement_alone;
+      for (NodalVector *vector : {&force, &displacement})
+        bonds->initialize(*vector);
+      for (NodalVector *vector : {&force_alone, &displacement_alone})
+        alone->initialize(*vector);
+      for (LocalIndex i = 0; i < whole_body.nodes.size(); ++i)
+        for (int d = 0; d < 2; ++d)
+          if (whole_body.nodes.position[i][0] < 0.6)
+            displacement.local_element(2 * i + d) = motion(whole_body.nodes.position[i], d);
+      for (LocalIndex i = 0; i < half_body.nodes.size(); ++i)
+        for (int d = 0; d < 2; ++d)
+          displacement_alone.local_element(2 * i + d) = motion(half_body.nodes.position[i], d);
+      bonds->compute(force, displacement);
+      alone->compute(force_alone, displacement_alone);
+      EXPECT_NEAR(bonds->strain_energy(), alone->strain_energy(), 1e-9 * alone->strain_energy());
+      EXPECT_NEAR(force.l2_norm(), force_alone.l2_norm(), 1e-9 * force_alone.l2_norm());
+    }
+}
+
+/// A node of which every bond is cut has no weights and no force.
+TEST(BondForce, WeighsFamiliesOfNothing)
+{
+  const auto          mesh = test::make_box<2>({5, 5}, {1., 1.}, 0.1);
+  const test::Body<2> body(*mesh);
+  ModelParameters     parameters;
+  parameters.form        = "energy";
+  parameters.multipliers = "after the cut";
+  parameters.resolve(2);
+  const auto all   = [](const dealii::Point<2> &, const dealii::Point<2> &) { return true; };
+  const auto bonds = create_bond_force<2>(weigh_bonds<2>(
+    body.families,
+    *create_model<2>(parameters, 1.),
+    [](const dealii::types::material_id) {
+      return Moduli{1., 0.6};
+    },
+    all));
+  EXPECT_EQ(bonds->cut(all), body.families->n_bonds());
+  NodalVector force, displacement;
+  bonds->initialize(force);
+  bonds->initialize(displacement);
+  for (std::size_t k = 0; k < displacement.locally_owned_size(); ++k)
+    displacement.local_element(k) = 0.01 * k;
+  bonds->compute(force, displacement);
+  EXPECT_EQ(force.linfty_norm(), 0.);
+  EXPECT_EQ(bonds->strain_energy(), 0.);
+}
+
+TEST(BondForce, OnlyMultipliersCanBeThoseAfterTheCut)
+{
+  ModelParameters parameters;
+  parameters.multipliers = "after the cut";
+  for (const std::string model : {"bond based", "ordinary"})
+    {
+      parameters.model = model;
+      test::expect_input_error([&] { parameters.resolve(2); },
+                               {"Material/Multipliers", "after the cut", "intact"});
+    }
+  parameters.model = "extended ordinary";
+  parameters.form  = "consistent";
+  test::expect_input_error([&] { parameters.resolve(2); }, {"Material/Multipliers", "energy | paper"});
+}
+
 /// What has not moved is left out, and the forces are the same.
 TEST(BondForce, LeavesOutWhatIsAtRest)
 {
