@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/fracture/crack_branching.h>
 #include <perideal/fracture/crack_tracker.h>
+#include <perideal/output/files.h>
 #include <perideal/parameters/parameter_file.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace perideal
 {
@@ -66,6 +68,11 @@ namespace perideal
                           crack.arrivals,
                           "Distances from the origin whose times of arrival are told [m]",
                           List(Double(0), 0, List::max_int_value, ","));
+        prm.add_parameter("Branch length",
+                          crack.branch_length,
+                          "Length [m] along the direction over which the angle between the crack's branches "
+                          "is measured; 0: no branches are looked for",
+                          Double(0));
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -86,134 +93,140 @@ namespace perideal
   {
     for (const CrackText &text : parameters.cracks)
       {
-        const std::string section = "Cracks/" + text.name + "/";
-        Crack             crack;
-        crack.text   = text;
-        crack.origin = read_point<dim>(text.origin, section + "Origin");
+        const std::string        section = "Cracks/" + text.name + "/";
+        const dealii::Point<dim> origin  = read_point<dim>(text.origin, section + "Origin");
+        dealii::Tensor<1, dim>   direction, side;
         if (text.direction.empty())
-          crack.direction[0] = 1;
+          direction[0] = 1;
         else
-          crack.direction = read_point<dim>(text.direction, section + "Direction");
+          direction = read_point<dim>(text.direction, section + "Direction");
         if (!text.side.empty())
-          crack.side = read_point<dim>(text.side, section + "Side");
-        if (crack.direction.norm() == 0)
+          side = read_point<dim>(text.side, section + "Side");
+        if (direction.norm() == 0)
           throw InputError("a direction has no length")
             .parameter(section + "Direction")
             .given(text.direction);
-        crack.direction /= crack.direction.norm();
-        cracks.push_back(crack);
+        if (dim == 3 && text.branch_length > 0)
+          throw InputError("branches are looked for in two dimensions")
+            .parameter(section + "Branch length")
+            .allowed("0 in 3-D");
+        direction /= direction.norm();
+        cracks.push_back({text, origin, direction, CrackPath<dim>(origin, side, text.radius)});
       }
   }
 
   template <int dim>
   void CrackTracker<dim>::start(const std::vector<double> &initial)
   {
-    open.resize(initial.size());
+    when.resize(initial.size());
     // Beside a precrack a few broken bonds more would count as a crack.
-    for (std::size_t i = 0; i < open.size(); ++i)
-      open[i] = initial[i] < 6. / 7. * threshold;
+    for (std::size_t i = 0; i < when.size(); ++i)
+      when[i] = initial[i] < 6. / 7. * threshold ? is_whole : is_left_out;
   }
 
   template <int dim>
   void CrackTracker<dim>::update(const double time, const std::vector<double> &damage)
   {
-    for (LocalIndex i = 0; i < open.size(); ++i)
-      if (open[i] && damage[i] > threshold)
+    for (LocalIndex i = 0; i < when.size(); ++i)
+      if (when[i] == is_whole && damage[i] > threshold)
         {
-          open[i] = 0;
-          events.push_back({i, nodes.position[i], time, nodes.spacing[i]});
+            when[i] = time;
+          fresh.push_back({nodes.position[i], time, nodes.spacing[i]});
         }
   }
 
   template <int dim>
   std::vector<double> CrackTracker<dim>::state() const
   {
-    std::vector<double> result(open.size());
-    for (std::size_t i = 0; i < open.size(); ++i)
-      result[i] = open[i] ? is_whole : is_left_out;
-    for (const Event &event : events)
-      result[event.node] = event.time;
-    return result;
+    return when;
   }
 
   template <int dim>
   void CrackTracker<dim>::resume(const std::vector<double> &state)
   {
-    events.clear();
-    for (LocalIndex i = 0; i < state.size(); ++i)
-      {
-        open[i] = state[i] == is_whole;
-        if (state[i] >= 0)
-          events.push_back({i, nodes.position[i], state[i], nodes.spacing[i]});
-      }
-    std::stable_sort(
-      events.begin(), events.end(), [](const Event &a, const Event &b) { return a.time < b.time; });
+    when = state;
+    for (LocalIndex i = 0; i < when.size(); ++i)
+      if (when[i] >= 0)
+        fresh.push_back({nodes.position[i], when[i], nodes.spacing[i]});
+    collect();
   }
 
   template <int dim>
-  std::vector<typename CrackTracker<dim>::Event>
-  CrackTracker<dim>::connected(const Crack &crack, const std::vector<Event> &events)
+  void CrackTracker<dim>::collect()
   {
-    namespace bgi = boost::geometry::index;
-    std::vector<dealii::Point<dim>> positions;
-    for (const Event &event : events)
-      positions.push_back(event.position);
-    const auto        tree = dealii::pack_rtree_of_indices(positions);
-    std::vector<bool> found(events.size(), false);
+    std::vector<DamagedNode<dim>> all;
+    for (const auto &of_rank : dealii::Utilities::MPI::gather(nodes.communicator, fresh, 0))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    fresh.clear();
+    // In an order that does not depend on the ranks.
+    std::sort(all.begin(), all.end());
+    for (Crack &crack : cracks)
+      crack.path.add(all);
+  }
 
-    std::vector<std::size_t> front;
-    for (std::size_t k = 0; k < events.size(); ++k)
-      if (events[k].position.distance(crack.origin) < 4 * events[k].spacing)
-        {
-          found[k] = true;
-          front.push_back(k);
-        }
-    while (!front.empty())
+  template <int dim>
+  std::vector<typename CrackTracker<dim>::Tip> CrackTracker<dim>::tips(const double time) const
+  {
+    std::vector<Tip> result;
+    for (const Crack &crack : cracks)
       {
-        const Event &from = events[front.back()];
-        front.pop_back();
-        // Cells that share a corner are up to sqrt(dim) spacings apart.
-        const double           reach = 1.1 * std::sqrt(double(dim)) * from.spacing;
-        dealii::Tensor<1, dim> corner;
+        Tip tip;
+        tip.name  = crack.text.name;
+        tip.reach = 0;
+        tip.speed = crack.path.speed(time);
         for (int d = 0; d < dim; ++d)
-          corner[d] = reach;
-        const dealii::BoundingBox<dim> box({from.position - corner, from.position + corner});
-        for (auto near = tree.qbegin(bgi::intersects(box)); near != tree.qend(); ++near)
-          if (!found[*near] && positions[*near].distance(from.position) <= reach)
-            {
-              found[*near] = true;
-              front.push_back(*near);
-            }
-      }
-    std::vector<Event> result;
-    for (std::size_t k = 0; k < events.size(); ++k)
-      {
-        const auto from_origin = events[k].position - crack.origin;
-        if (found[k] && from_origin.norm() <= crack.text.radius &&
-            (crack.side.norm() == 0 || from_origin * crack.side > 0))
-          result.push_back(events[k]);
+          tip.position[d] = std::numeric_limits<double>::quiet_NaN();
+        const auto arrivals = crack.path.tip_arrivals();
+        if (!arrivals.empty())
+          {
+            tip.position = arrivals.back().position;
+            tip.reach    = crack.path.distance(arrivals.back());
+          }
+        result.push_back(tip);
       }
     return result;
   }
 
   template <int dim>
-  Json CrackTracker<dim>::describe(const Crack &crack, std::vector<Event> events)
+  Json CrackTracker<dim>::describe_branching(const Crack &crack)
+  {
+    std::vector<std::array<double, 2>>     nodes;
+    std::vector<std::pair<double, double>> front;
+    double                                 spacing = 0;
+    for (const auto &node : crack.path.nodes())
+      {
+        const auto   from_origin = node.position - crack.origin;
+        const double along       = from_origin * crack.direction;
+        nodes.push_back({{along, crack.direction[0] * from_origin[1] - crack.direction[1] * from_origin[0]}});
+        spacing += node.spacing / crack.path.nodes().size();
+        if (front.empty() || along > front.back().first)
+          front.emplace_back(along, node.time);
+      }
+    const auto found = find_branching(nodes, spacing, crack.text.branch_length);
+    if (!found)
+      return nullptr;
+    // When the tip came into that column.
+    const auto after = std::find_if(
+      front.begin(), front.end(), [&](const auto &at) { return at.first > found->reach - 0.5 * spacing; });
+    return {{"reach", found->reach}, {"time", after->second}, {"full_angle", found->full_angle}};
+  }
+
+  template <int dim>
+  Json CrackTracker<dim>::describe(const Crack &crack)
   {
     Json result = {{"first_time", nullptr}, {"reach", nullptr}, {"angle", nullptr}, {"speed", nullptr}};
-    std::sort(events.begin(), events.end(), [](const Event &a, const Event &b) { return a.time < b.time; });
-    events = connected(crack, events);
+    if (crack.text.branch_length > 0)
+      result["branching"] = nullptr;
+    const auto &events = crack.path.nodes();
     if (events.empty())
       return result;
     result["first_time"] = events.front().time;
+    if (crack.text.branch_length > 0)
+      result["branching"] = describe_branching(crack);
 
-    // The reach grows from event to event.
     std::vector<std::pair<double, double>> reach;
-    for (const Event &event : events)
-      {
-        const double distance = event.position.distance(crack.origin);
-        if (reach.empty() || distance > reach.back().second)
-          reach.emplace_back(event.time, distance);
-      }
+    for (const auto &node : crack.path.tip_arrivals())
+      reach.emplace_back(node.time, crack.path.distance(node));
     result["reach"] = reach.back().second;
     Json arrivals   = Json::array();
     for (const double distance : crack.text.arrivals)
@@ -241,7 +254,7 @@ namespace perideal
     using Matrix = Eigen::Matrix<double, dim, dim>;
     dealii::Point<dim>              mean;
     std::vector<dealii::Point<dim>> measured;
-    for (const Event &event : events)
+    for (const auto &event : events)
       {
         const double distance = event.position.distance(crack.origin);
         if (distance >= crack.text.from && distance <= crack.text.to && event.time <= crack.text.until)
@@ -271,13 +284,35 @@ namespace perideal
   template <int dim>
   Json CrackTracker<dim>::describe() const
   {
-    std::vector<Event> all;
-    for (const auto &of_rank : dealii::Utilities::MPI::gather(nodes.communicator, events, 0))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
     Json result = Json::object();
     for (const Crack &crack : cracks)
-      result[crack.text.name] = describe(crack, all);
+      result[crack.text.name] = describe(crack);
     return result;
+  }
+
+  template <int dim>
+  void CrackTracker<dim>::write_paths(const std::string &directory) const
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator) != 0)
+      return;
+    std::vector<std::string> header = {"time [s]", "x [m]", "y [m]"};
+    if (dim == 3)
+      header.push_back("z [m]");
+    header.insert(header.end(), {"distance [m]", "reach [m]"});
+    for (const Crack &crack : cracks)
+      {
+        std::vector<std::vector<double>> rows;
+        double                           reach = 0;
+        for (const auto &node : crack.path.nodes())
+          {
+            reach = std::max(reach, crack.path.distance(node));
+            rows.push_back({node.time});
+            for (int d = 0; d < dim; ++d)
+              rows.back().push_back(node.position[d]);
+            rows.back().insert(rows.back().end(), {crack.path.distance(node), reach});
+          }
+        write_csv(directory + "/crack_" + crack.text.name + ".csv", header, rows);
+      }
   }
 
   template class CrackTracker<2>;

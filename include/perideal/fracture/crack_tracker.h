@@ -2,6 +2,7 @@
 #ifndef perideal_fracture_crack_tracker_h
 #define perideal_fracture_crack_tracker_h
 
+#include <perideal/fracture/crack_path.h>
 #include <perideal/nodes/nodes.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -27,6 +28,8 @@ namespace perideal
     double from = 0, to = 1e300, until = 1e300;
     /// Distances from the origin [m] whose times of arrival are told.
     std::vector<double> arrivals;
+    /// Length over which the angle of its branches is measured [m]; 0: no branches are looked for.
+    double branch_length = 0;
   };
 
   /// Section "Cracks".
@@ -50,7 +53,7 @@ namespace perideal
   {
   public:
     /// The nodes must outlive this object.
-    /// @throws InputError on text that is no point or direction.
+    /// @throws InputError on text that is no point or direction, on branches in 3-D.
     CrackTracker(const CrackParameters &parameters, const NodeCloud<dim> &nodes);
 
     /// @param initial damage by precracks of owned nodes; nodes with nearly as much as counts are left out
@@ -66,44 +69,52 @@ namespace perideal
     /// Goes on from the state of an earlier run.
     void resume(const std::vector<double> &state);
 
+    /// Brings what was noted since the last call to rank 0, where what follows is known. Collective.
+    void collect();
+
+    /// Where a crack is: its node farthest from the origin, not a number before there is one;
+    /// that distance [m], and its speed [m/s] as CrackPath tells it, both 0 before.
+    struct Tip
+    {
+      std::string        name;
+      dealii::Point<dim> position;
+      double             reach, speed;
+    };
+    /// The tips of all cracks, as of the last collect().
+    std::vector<Tip> tips(const double time) const;
+
     /**
      * By crack: first_time [s]; angle [degrees] between its direction so far and the line of least squares
      * through its nodes; speed [m/s], the slope of its reach; reach [m]; arrivals [s] at the distances asked
-     * for. What there is not is null. Collective; the result is that of rank 0.
+     * for; where branches are looked for, branching: reach [m] along the direction, time [s] at which
+     * the tip was there, full_angle [degrees] (find_branching()). What there is not is null. As of the last
+     * collect().
      */
     nlohmann::ordered_json describe() const;
+
+    /// Writes crack_NAME.csv: time [s], position and distance from the origin [m] of every node of the crack,
+    /// by time, and how far the tip had come [m]. As of the last collect().
+    void write_paths(const std::string &directory) const;
 
   private:
     struct Crack
     {
       CrackText              text;
       dealii::Point<dim>     origin;
-      dealii::Tensor<1, dim> direction, side;
-    };
-    /// A damaged node.
-    struct Event
-    {
-      LocalIndex         node;
-      dealii::Point<dim> position;
-      double             time, spacing;
-
-      template <class Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &node &position &time &spacing;
-      }
+      dealii::Tensor<1, dim> direction;
+      CrackPath<dim>         path;
     };
 
-    static nlohmann::ordered_json describe(const Crack &crack, std::vector<Event> events);
-    /// Those of the events, by time, that are connected with the origin.
-    static std::vector<Event> connected(const Crack &crack, const std::vector<Event> &events);
+    static nlohmann::ordered_json describe(const Crack &crack);
+    static nlohmann::ordered_json describe_branching(const Crack &crack);
 
     double                threshold;
     const NodeCloud<dim> &nodes;
     std::vector<Crack>    cracks;
     /// Nodes that may become damaged yet.
-    std::vector<std::uint8_t> open;
-    std::vector<Event>        events;
+    std::vector<double> when;
+    /// Nodes of this rank since the last collect().
+    std::vector<DamagedNode<dim>> fresh;
   };
 } // namespace perideal
 

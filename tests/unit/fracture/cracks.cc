@@ -6,6 +6,7 @@
 #include "testing.h"
 
 #include <cmath>
+#include <fstream>
 
 using namespace perideal;
 using test::expect_input_error;
@@ -17,6 +18,30 @@ namespace
     CrackParameters result;
     result.cracks = {text};
     return result;
+  }
+
+  /// Rows by time, the reach the largest distance so far.
+  void expect_path(const std::string &file, const double reach)
+  {
+    std::ifstream stream(file);
+    std::string   line;
+    std::getline(stream, line);
+    EXPECT_EQ(line, "time [s],x [m],y [m],distance [m],reach [m]");
+    double       last_time = 0, largest = 0;
+    unsigned int n_rows = 0;
+    while (std::getline(stream, line))
+      {
+        const auto row = dealii::Utilities::string_to_double(dealii::Utilities::split_string_list(line, ','));
+        ASSERT_EQ(row.size(), 5u);
+        EXPECT_GE(row[0], last_time);
+        last_time = row[0];
+        largest   = std::max(largest, row[3]);
+        EXPECT_EQ(row[4], largest);
+        EXPECT_NEAR(std::hypot(row[1] - 0.2, row[2] - 0.2), row[3], 1e-14);
+        ++n_rows;
+      }
+    EXPECT_NEAR(largest, reach, 1e-8);
+    EXPECT_GT(n_rows, 50u);
   }
 } // namespace
 
@@ -50,10 +75,23 @@ TEST(CrackTracker, MeasuresAngleSpeedAndArrivals)
             damage[i] = 0.9;
         }
       tracker.update(time, damage);
+      // Now and then: cracks grow from where they were.
+      if (n % 9 == 0)
+        tracker.collect();
     }
+  tracker.collect();
+  const test::TemporaryDirectory directory;
+  tracker.write_paths(directory.path());
   const auto crack = tracker.describe()["c"];
+  const auto tip   = tracker.tips(0.3).at(0);
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
     return;
+  // Within half a cell's diagonal and the crack's width; the speed over 8 spacings within one of them.
+  EXPECT_NEAR((tip.position - origin) * along, 0.6, 0.02);
+  EXPECT_NEAR(tip.reach, 0.6, 0.02);
+  EXPECT_NEAR(tip.speed, 2., 0.25);
+  EXPECT_NEAR(tracker.tips(10.)[0].speed, 0.01, 0.002); // 8 spacings in 9.75 s
+  expect_path(directory.path("crack_c.csv"), tip.reach);
   EXPECT_NEAR(crack["angle"].get<double>(), 30., 1.);
   EXPECT_NEAR(crack["speed"].get<double>(), 2., 0.05);
   EXPECT_NEAR(crack["reach"].get<double>(), 0.6, 0.02);
@@ -74,7 +112,12 @@ TEST(CrackTracker, LeavesPrecracksOut)
   CrackTracker<2> tracker(parameters_of(text), nodes);
   tracker.start(std::vector<double>(nodes.size(), 0.34));
   tracker.update(1., std::vector<double>(nodes.size(), 0.9));
+  tracker.collect();
   const auto crack = tracker.describe()["c"];
+  const auto tip   = tracker.tips(1.).at(0);
+  EXPECT_TRUE(std::isnan(tip.position[0]));
+  EXPECT_EQ(tip.reach, 0.);
+  EXPECT_EQ(tip.speed, 0.);
   EXPECT_TRUE(crack["first_time"].is_null());
   EXPECT_TRUE(crack["angle"].is_null());
 }
