@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/models.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
@@ -164,6 +165,49 @@ TEST(ExplicitDynamics, SendsWavesAtTheirSpeed)
           front[k] = std::max(front[k], moving.body.nodes.position[i][0]);
     }
   EXPECT_NEAR((front[1] - front[0]) / 90., 1., 0.02);
+}
+
+/// A traction sigma that is there at once moves the end of a bar at sigma/(rho c).
+TEST(ExplicitDynamics, PushesABarAtItsSpeed)
+{
+  const auto            mesh = test::make_box<2>({200, 4}, {200., 4.}, 0.);
+  LoadParameters        text;
+  BoundaryConditionText push;
+  push.name = push.boundary = "0";
+  push.traction[0]          = "if(t < 6, 0, 1e-4)";
+  text.conditions           = {push};
+  MovingBody moving(*mesh, "extended ordinary", text, 3.01);
+  ASSERT_TRUE(moving.loads.forces_depend_on_time());
+  const auto faces      = find_boundary_faces(*mesh, moving.body.nodes);
+  const auto boundaries = resolve_boundaries(*mesh, moving.loads);
+  auto       dynamics   = moving.dynamics(0.3);
+  const auto end        = [&]() {
+    double     sum = 0;
+    LocalIndex n   = 0;
+    for (LocalIndex i = 0; i < moving.body.nodes.size(); ++i)
+      if (moving.body.nodes.position[i][0] < 1)
+        {
+          sum += dynamics.displacement.local_element(2 * i);
+          ++n;
+        }
+    return sum / n;
+  };
+  NodalVector  force(moving.no_load);
+  const double times[] = {5.9, 26, 126};
+  double       position[3];
+  for (const int k : {0, 1, 2})
+    {
+      while (dynamics.time() < times[k])
+        {
+          compute_nodal_forces(moving.body.nodes, faces, moving.loads, boundaries, dynamics.time(), force);
+          dynamics.evaluate(force);
+          dynamics.advance();
+        }
+      position[k] = end();
+    }
+  EXPECT_EQ(position[0], 0.);
+  // rho = 1, E = 1: a thin bar's c is 1.
+  EXPECT_NEAR((position[2] - position[1]) / 100. / 1e-4, 1., 0.02);
 }
 
 /// The work of supports, loads and damping balances what is there.
