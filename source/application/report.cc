@@ -125,6 +125,8 @@ namespace perideal
     if (!scene.null_space.empty())
       out << ", free rigid-body motions removed";
     out << '\n';
+    if (scene.no_fail_zones)
+      out << "no failure  at the bonds of " << grouped(scene.n_no_fail_nodes) << " nodes\n";
     if (scene.linear_solver)
       out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
     if (parameters.solver.is_relaxation())
@@ -246,6 +248,23 @@ namespace perideal
     out << line.str() << "      " << std::flush;
   }
 
+  namespace
+  {
+    std::string describe_branching(const Json &crack)
+    {
+      if (!crack.contains("branching"))
+        return "";
+      const Json &branching = crack["branching"];
+      if (branching.is_null())
+        return "; no branches";
+      return "; branches at " + short_number(branching["reach"].get<double>()) + " m, " +
+             short_number(branching["time"].get<double>()) + " s, " +
+             (branching["full_angle"].is_number() ? short_number(branching["full_angle"].get<double>()) :
+                                                    "-") +
+             " degrees apart";
+    }
+  } // namespace
+
   std::string describe_motion(const Json &summary)
   {
     std::ostringstream out;
@@ -265,7 +284,7 @@ namespace perideal
         out << "crack       " << crack.key() << ": from " << number(crack.value()["first_time"], 1)
             << " s on, reach " << number(crack.value()["reach"], 1) << " m, angle "
             << number(crack.value()["angle"], 1) << " degrees, speed " << number(crack.value()["speed"], 1)
-            << " m/s\n";
+            << " m/s" << describe_branching(crack.value()) << '\n';
     return out.str();
   }
 
@@ -273,6 +292,8 @@ namespace perideal
   {
     std::ostringstream out;
     const Json         damage = summary.value("damage", Json::object());
+    if (damage.contains("cut_bonds"))
+      out << "precracks   " << grouped(damage["cut_bonds"].get<GlobalIndex>()) << " cut bonds\n";
     if (damage.value("broken_bonds", GlobalIndex(0)) > 0)
       {
         out << "damage      " << grouped(damage["broken_bonds"].get<GlobalIndex>())

@@ -86,6 +86,7 @@ namespace perideal
     loads.declare(prm, file);
     initial.declare(prm);
     precracks.declare(prm, file);
+    no_fail.declare(prm, file);
     cracks.declare(prm, file);
     checkpoints.declare(prm);
     comparison.declare(prm);
@@ -257,6 +258,10 @@ namespace perideal
       complain("Cracks/" + cracks.cracks.front().name);
     if (!precracks.cracks.empty())
       complain("Precracks/" + precracks.cracks.front().name);
+    if (!no_fail.zones.empty())
+      complain("No-fail zones/" + no_fail.zones.front().name);
+    if (model.after_the_cut())
+      complain("Material/Multipliers");
   }
 
   std::vector<std::string> SceneParameters::field_names() const
@@ -301,6 +306,7 @@ namespace perideal
                            " subsection ANY NAME\n end\nend\n"
                            "subsection Point loads\n subsection ANY NAME\n end\nend\n"
                            "subsection Precracks\n subsection ANY NAME\n end\nend\n"
+                           "subsection No-fail zones\n subsection ANY NAME\n end\nend\n"
                            "subsection Cracks\n subsection ANY NAME\n end\nend\n",
                            "");
     SceneParameters          scene;

@@ -55,18 +55,32 @@ namespace perideal
   }
 
   template <int dim>
+  BondPredicate<dim> Simulation<dim>::precrack_test() const
+  {
+    if (scene.precracks.empty())
+      return {};
+    return [this](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
+      return std::any_of(scene.precracks.begin(), scene.precracks.end(), [&](const auto &crack) {
+        return crack.crosses(a, b);
+      });
+    };
+  }
+
+  template <int dim>
   void Simulation<dim>::make_cracks_and_limits()
   {
-    const auto &cracks = scene.precracks;
-    if (!cracks.empty())
-      scene.force->cut([&](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
-        return std::any_of(
-          cracks.begin(), cracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
-      });
+    if (!scene.precracks.empty())
+      summary["damage"]["cut_bonds"] = scene.force->cut(precrack_test());
     if (!can_break(parameters))
       return;
     const Families<dim> &families = *scene.families;
+    std::vector<bool>    unbreakable(families.n_local(), false);
+    if (scene.no_fail_zones)
+      for (LocalIndex i = 0; i < families.n_local(); ++i)
+        unbreakable[i] = scene.no_fail_zones->contains(families.position[i]);
     scene.force->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
+      if (unbreakable[i] || unbreakable[j])
+        return std::numeric_limits<double>::infinity();
       // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
       const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
       return std::min(critical_stretch(families.material[i], horizon),
@@ -91,6 +105,12 @@ namespace perideal
   {
     for (const PrecrackText &text : parameters.precracks.cracks)
       scene.precracks.emplace_back(text, *scene.mesh);
+    if (!parameters.no_fail.zones.empty())
+      {
+        scene.no_fail_zones   = std::make_unique<NoFailZones<dim>>(parameters.no_fail, *scene.mesh);
+        scene.n_no_fail_nodes = scene.no_fail_zones->count(*scene.nodes);
+        summary["damage"]["no_fail_nodes"] = scene.n_no_fail_nodes;
+      }
     if (!parameters.cracks.cracks.empty())
       scene.crack_tracker = std::make_unique<CrackTracker<dim>>(parameters.cracks, *scene.nodes);
   }
@@ -224,7 +244,10 @@ namespace perideal
           return false;
       }
     if (scene.crack_tracker)
-      summary["cracks"] = scene.crack_tracker->describe();
+      {
+        summary["cracks"] = scene.crack_tracker->describe();
+        scene.crack_tracker->write_paths(parameters.output_directory);
+      }
     if (can_break(parameters))
       summary["damage"]["fragments"] = find_fragments(*scene.families,
                                                       scene.force->bond_list(),
@@ -288,6 +311,8 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           history->add("reaction of " + scene.loads.conditions[k].name + " along " + axes[d] + " [N]",
                        reactions[k][d]);
+    if (scene.crack_tracker)
+      record_crack_tips(dynamics);
     history->end_row();
     double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
     if (std::abs(drift) > std::abs(worst))
@@ -299,6 +324,22 @@ namespace perideal
                                          {"external", energy.external},
                                          {"drift", worst}};
     summary["damage"]["broken_bonds"] = dynamics.n_broken();
+  }
+
+  template <int dim>
+  void Simulation<dim>::record_crack_tips(const ExplicitDynamics<dim> &dynamics)
+  {
+    if (dynamics.n_broken() != broken_in_cracks)
+      scene.crack_tracker->collect();
+    broken_in_cracks   = dynamics.n_broken();
+    const char *axes[] = {"x", "y", "z"};
+    for (const auto &tip : scene.crack_tracker->tips(dynamics.time()))
+      {
+        for (int d = 0; d < dim; ++d)
+          history->add(std::string("tip ") + axes[d] + " of " + tip.name + " [m]", tip.position[d]);
+        history->add("reach of " + tip.name + " [m]", tip.reach);
+        history->add("speed of " + tip.name + " [m/s]", tip.speed);
+      }
   }
 
   template <int dim>
@@ -319,9 +360,10 @@ namespace perideal
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template double Simulation<dim>::critical_stretch(const dealii::types::material_id, const double) const;   \
-  template void   Simulation<dim>::prepare_dynamics();                                                       \
-  template void   Simulation<dim>::prepare_cracks();                                                         \
-  template void   Simulation<dim>::make_cracks_and_limits();                                                 \
+  template BondPredicate<dim>  Simulation<dim>::precrack_test() const;                                       \
+  template void                Simulation<dim>::prepare_dynamics();                                          \
+  template void                Simulation<dim>::prepare_cracks();                                            \
+  template void                Simulation<dim>::make_cracks_and_limits();                                    \
   template std::vector<double> Simulation<dim>::total_damage() const;                                        \
   template void                Simulation<dim>::run_dynamics();
   PERIDEAL_INSTANTIATE(2)

@@ -117,7 +117,11 @@ namespace perideal
       {
         const Timings::Scope part(timings, "setup: weights");
         const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
-        scene.weights              = perideal::weigh_bonds<dim>(scene.families, *model, moduli);
+        scene.weights              = perideal::weigh_bonds<dim>(scene.families,
+                                                   *model,
+                                                   moduli,
+                                                   parameters.model.after_the_cut() ? precrack_test() :
+                                                                                                   BondPredicate<dim>());
         scene.bonds                = create_bond_operator<dim>(scene.weights);
       }
     scene.family_counts  = scene.bonds->counts;

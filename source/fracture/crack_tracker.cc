@@ -130,7 +130,7 @@ namespace perideal
     for (LocalIndex i = 0; i < when.size(); ++i)
       if (when[i] == is_whole && damage[i] > threshold)
         {
-            when[i] = time;
+          when[i] = time;
           fresh.push_back({nodes.position[i], time, nodes.spacing[i]});
         }
   }

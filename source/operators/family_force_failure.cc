@@ -160,9 +160,9 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                   \
   template void FamilyForce<dim, n_sums, own_force_weights>::set_critical_stretch(                             \
     const BondForce<dim>::CriticalStretch &);                                                                  \
-  template GlobalIndex FamilyForce<dim, n_sums, own_force_weights>::cut(const BondPredicate<dim> &); \
-  template void FamilyForce<dim, n_sums, own_force_weights>::lose(                                             \
-    const BondIndex, const LocalIndex, std::vector<double> &);                                                 \
+  template GlobalIndex FamilyForce<dim, n_sums, own_force_weights>::cut(const BondPredicate<dim> &);           \
+  template void        FamilyForce<dim, n_sums, own_force_weights>::lose(                                      \
+    const BondIndex, const LocalIndex, std::vector<double> &);                                          \
   template void FamilyForce<dim, n_sums, own_force_weights>::break_bonds(                                      \
     const LocalIndex, const BondIndex, const Lanes &);                                                         \
   template GlobalIndex           FamilyForce<dim, n_sums, own_force_weights>::n_broken_now() const;            \

@@ -45,7 +45,8 @@ def listed_scene(program, folder):
     values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
               load + "Point=1, 0.5", load + "F_x=1",
               "Solver/Name=dynamics", "Solver/End time=1e-4",
-              "Precracks/ANY NAME/Points=0, 0.5; 0.5, 0.5", "Cracks/ANY NAME/Origin=0.5, 0.5"]
+              "Precracks/ANY NAME/Points=0, 0.5; 0.5, 0.5", "Cracks/ANY NAME/Origin=0.5, 0.5",
+              "No-fail zones/ANY NAME/Box=0, 0; 0.5, 0.5"]
     return n_groups, [argument for value in values for argument in ("--set", value)]
 
 

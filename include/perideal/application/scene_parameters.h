@@ -3,6 +3,7 @@
 #define perideal_application_scene_parameters_h
 
 #include <perideal/fracture/crack_tracker.h>
+#include <perideal/fracture/no_fail_zones.h>
 #include <perideal/materials/models.h>
 #include <perideal/mesh/mesh_parameters.h>
 #include <perideal/neighbourhood/precrack.h>
@@ -78,6 +79,7 @@ namespace perideal
     LoadParameters       loads;
     InitialParameters    initial;
     PrecrackParameters   precracks;
+    NoFailParameters     no_fail;
     CrackParameters      cracks;
     CheckpointParameters checkpoints;
     ComparisonParameters comparison;

@@ -9,6 +9,7 @@
 #include <perideal/boundary/point_forces.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fracture/crack_tracker.h>
+#include <perideal/fracture/no_fail_zones.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/precrack.h>
@@ -72,6 +73,8 @@ namespace perideal
     // Dynamics have these, and relaxation those of failure.
     std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
     std::vector<Precrack<dim>>              precracks;
+    std::unique_ptr<NoFailZones<dim>>       no_fail_zones;
+    GlobalIndex                             n_no_fail_nodes = 0;
     std::unique_ptr<CrackTracker<dim>>      crack_tracker;
     std::unique_ptr<BondForce<dim>>         force;
 

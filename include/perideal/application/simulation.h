@@ -73,6 +73,8 @@ namespace perideal
     void   prepare_cracks();
     double choose_time_step();
     void   make_cracks_and_limits();
+    /// Whether precracks cut a bond; empty where there are none.
+    BondPredicate<dim> precrack_test() const;
     /// False when the program was asked to stop.
     bool run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
     void record_dynamics(const ExplicitDynamics<dim> &dynamics);
@@ -86,6 +88,8 @@ namespace perideal
     void record_relaxation(const unsigned int            number,
                            const RelaxedStep            &result,
                            const DynamicRelaxation<dim> &relaxation);
+    /// The tips of cracks, in the row of the history. Collective.
+    void record_crack_tips(const ExplicitDynamics<dim> &dynamics);
     /// Share of the family behind broken bonds and precracks, by owned node.
     std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
@@ -110,6 +114,8 @@ namespace perideal
     std::vector<double> frame_times;
     /// What this run goes on from, if it does.
     std::unique_ptr<Checkpoint> resumed;
+    /// Broken bonds when the cracks were last looked at.
+    GlobalIndex broken_in_cracks = 0;
 
     std::unique_ptr<History>          history;
     std::unique_ptr<FieldOutput<dim>> field_output;

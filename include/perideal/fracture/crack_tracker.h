@@ -111,7 +111,7 @@ namespace perideal
     double                threshold;
     const NodeCloud<dim> &nodes;
     std::vector<Crack>    cracks;
-    /// Nodes that may become damaged yet.
+    /// By owned node, the time of damage [s], or is_whole or is_left_out.
     std::vector<double> when;
     /// Nodes of this rank since the last collect().
     std::vector<DamagedNode<dim>> fresh;

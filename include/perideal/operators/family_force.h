@@ -27,11 +27,11 @@ namespace perideal
 
     explicit FamilyForce(const Weights &weights);
 
-    void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void judge_bonds(const bool judge) override { judges_bonds = judge; }
+    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void        judge_bonds(const bool judge) override { judges_bonds = judge; }
     GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
-    void compute(NodalVector &force, const NodalVector &displacement) override;
-    GlobalIndex           n_broken_now() const override;
+    void        compute(NodalVector &force, const NodalVector &displacement) override;
+    GlobalIndex n_broken_now() const override;
     std::vector<BondEnds> broken_bonds() const override;
     void                  restore_broken(const std::vector<BondEnds> &broken) override;
     const BondList       &bond_list() const override { return bonds; }
