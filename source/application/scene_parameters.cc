@@ -210,6 +210,10 @@ namespace perideal
         if (!initial.velocity[d].empty())
           complain(std::string("Initial conditions/v_") + axes[d]);
       }
+    if (checkpoints.steps > 0)
+      complain("Checkpoints/Steps");
+    if (checkpoints.restart)
+      complain("Checkpoints/Restart");
   }
 
   void SceneParameters::check_relaxation() const
@@ -252,8 +256,6 @@ namespace perideal
           .parameter("Output/Fields")
           .given(field)
           .hint("remove it, or set Solver/Name = dynamics");
-    if (checkpoints.steps > 0 || checkpoints.restart)
-      complain(checkpoints.steps > 0 ? "Checkpoints/Steps" : "Checkpoints/Restart");
     if (!cracks.cracks.empty())
       complain("Cracks/" + cracks.cracks.front().name);
     if (!precracks.cracks.empty())
