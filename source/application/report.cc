@@ -68,6 +68,13 @@ namespace perideal
                         [&](const auto &group) { return breaks(group.second); }));
   }
 
+  bool has_contact(const SceneParameters &parameters)
+  {
+    if (parameters.contact.enabled == "automatic")
+      return can_break(parameters) || !parameters.precracks.cracks.empty();
+    return parameters.contact.enabled == "true";
+  }
+
   template <int dim>
   Json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene)
   {
@@ -80,6 +87,10 @@ namespace perideal
     if (parameters.solver.is_dynamic())
       {
         result["matrix, preconditioner (explicit)"] = 1;
+        if (!has_contact(parameters))
+          result[can_break(parameters) ? "contact (off)" : "contact (nothing can break)"] = 1;
+        if (scene.contact && scene.contact->n_searches() > 0)
+          result["nodes left out of the search for contacts"] = scene.contact->n_left_out();
         if (scene.force)
           result["bonds at rest"] = 1. - scene.force->share_computed();
       }
@@ -278,6 +289,10 @@ namespace perideal
     if (std::abs(energy["drift"].get<double>()) > 0.01)
       out << "warning     the energy is off by more than 1 %: take a smaller time step, or a form that has "
              "an energy\n";
+    if (summary.contains("contact") && summary["contact"]["largest_overlap"].get<double>() > 0.5)
+      out
+        << "warning     nodes came to less than half their contact distance and may have passed each other: "
+           "raise Contact/Stiffness\n";
     out << describe_damage(summary, " s");
     if (summary.contains("cracks"))
       for (const auto &crack : summary["cracks"].items())

@@ -89,6 +89,7 @@ namespace perideal
     no_fail.declare(prm, file);
     cracks.declare(prm, file);
     checkpoints.declare(prm);
+    contact.declare(prm);
     comparison.declare(prm);
     prm.enter_subsection("Output");
     prm.add_parameter(
@@ -122,6 +123,7 @@ namespace perideal
     material.check();
     solver.check();
     cracks.check();
+    contact.check();
     resolve();
     if (comparison.reference_refinements < 0 && mesh.refinements == 0)
       throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
@@ -264,6 +266,10 @@ namespace perideal
       complain("No-fail zones/" + no_fail.zones.front().name);
     if (model.after_the_cut())
       complain("Material/Multipliers");
+    if (contact.enabled == "true")
+      complain("Contact/Enabled");
+    if (solver.relative_damping > 0)
+      complain("Solver/Relative damping");
   }
 
   std::vector<std::string> SceneParameters::field_names() const

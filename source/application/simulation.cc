@@ -250,13 +250,14 @@ namespace perideal
   {
     {
       const Timings::Scope scope(timings, "output");
-      if (status != "done" && scene.displacement.size() == scene.nodes->size())
+      const bool           dynamic = parameters.solver.is_dynamic();
+      if (status != "done" &&
+          (dynamic ? motion_time > frame_time : scene.displacement.size() == scene.nodes->size()))
         {
           // What there is may show what went wrong.
           field_output->add_vector("displacement", scene.displacement);
-          field_output->write(parameters.solver.is_dynamic() ? parameters.frames + 1 :
-                                                               parameters.solver.load_steps + 1,
-                              parameters.solver.is_dynamic() ? parameters.solver.end_time : 2.);
+          field_output->write(dynamic ? parameters.frames + 1 : parameters.solver.load_steps + 1,
+                              dynamic ? motion_time : 2.);
         }
       history->finish();
     }

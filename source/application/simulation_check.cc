@@ -3,7 +3,6 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/fracture/critical_stretch.h>
-#include <perideal/operators/stable_time_step.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,6 +21,7 @@ namespace perideal
     if (parameters.solver.is_relaxation())
       prepare_cracks();
     weigh_bonds();
+    make_relative_damping();
     screen << banner(parameters, scene);
 
     const std::size_t bytes = dealii::Utilities::MPI::sum(
@@ -32,8 +32,7 @@ namespace perideal
                  "" :
                  "; the preconditioner takes about as much again")
            << '\n';
-    const auto density = [&](const dealii::types::material_id id) { return properties_of(id).density; };
-    screen << "time step   " << short_number(stable_time_step(*scene.system, density))
+    screen << "time step   " << short_number(largest_stable_step())
            << " s is the largest stable one of explicit dynamics\n";
     for (const auto id : scene.mesh->material_ids)
       {

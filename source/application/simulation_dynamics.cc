@@ -9,7 +9,6 @@
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/critical_stretch.h>
 #include <perideal/fracture/fragments.h>
-#include <perideal/operators/stable_time_step.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 
@@ -38,10 +37,9 @@ namespace perideal
   double Simulation<dim>::choose_time_step()
   {
     const Timings::Scope scope(timings, "setup");
-    const double         stable = stable_time_step(
-      *scene.system, [&](const dealii::types::material_id id) { return properties_of(id).density; });
-    const double wanted = parameters.solver.time_step > 0 ? parameters.solver.time_step :
-                                                            parameters.solver.time_step_safety * stable;
+    const double         stable = largest_stable_step();
+    const double         wanted = parameters.solver.time_step > 0 ? parameters.solver.time_step :
+                                                                    parameters.solver.time_step_safety * stable;
     // A whole number of steps.
     const double n_steps = std::max(1., std::ceil(parameters.solver.end_time / wanted - 1e-9));
     const double result =
@@ -122,12 +120,14 @@ namespace perideal
     if (parameters.checkpoints.restart)
       open_checkpoint();
     weigh_bonds();
+    make_relative_damping();
     const double        time_step = choose_time_step();
     std::vector<double> mass(scene.nodes->size());
     {
       const Timings::Scope scope(timings, "setup");
       scene.force = create_bond_force<dim>(*scene.weights);
       make_cracks_and_limits();
+      make_contact();
       // What only the time step needed.
       scene.system.reset();
       scene.bonds.reset();
@@ -159,6 +159,10 @@ namespace perideal
                                    time_step,
                                    verlet ? ExplicitDynamics<dim>::Start::velocity_verlet :
                                             ExplicitDynamics<dim>::Start::symplectic_euler);
+    if (scene.contact)
+      dynamics.set_contact(scene.contact.get());
+    if (scene.relative_damping)
+      dynamics.set_relative_damping(scene.relative_damping.get());
     for (int d = 0; d < dim; ++d)
       if (scene.initial_velocity[d].is_present())
         for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
@@ -217,10 +221,13 @@ namespace perideal
         if (scene.crack_tracker && dynamics.n_broken_now() > 0)
           scene.crack_tracker->update(dynamics.time(), total_damage());
         if (dynamics.n_broken_now() > 0 && dynamics.n_broken() == n_bonds)
-          throw ComputationError(
-            "every bond is broken at step " + std::to_string(n) + ", t = " + short_number(dynamics.time()) +
-            " s\n  likely cause: a critical stretch or fracture energy that is too small, or "
-            "loads that are too large");
+          {
+            record_dynamics(dynamics);
+            throw ComputationError(
+              "every bond is broken at step " + std::to_string(n) + ", t = " + short_number(dynamics.time()) +
+              " s\n  likely cause: a critical stretch or fracture energy that is too small, or "
+              "loads that are too large");
+          }
         progress(n, dynamics.n_broken());
         summary["solver"]["steps"] = n;
         if (n % parameters.history_steps == 0 || n == n_steps)
@@ -268,37 +275,44 @@ namespace perideal
   }
 
   template <int dim>
+  void Simulation<dim>::check_finite_motion(const ExplicitDynamics<dim> &dynamics, const EnergyBudget &energy)
+  {
+    if (std::isfinite(energy.kinetic) && std::isfinite(energy.strain))
+      return;
+    double     fastest = 0;
+    LocalIndex node    = 0;
+    for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        if (!(std::abs(dynamics.velocity.local_element(dim * i + d)) <= fastest))
+          {
+            fastest = std::abs(dynamics.velocity.local_element(dim * i + d));
+            node    = i;
+          }
+    std::ostringstream where;
+    if (scene.nodes->size() > 0)
+      where << scene.nodes->first_global + node << " at (" << scene.nodes->position[node] << ")";
+    throw ComputationError("the motion is not finite at step " + std::to_string(dynamics.step()) + ", t = " +
+                           short_number(dynamics.time()) + " s, first seen at node " + where.str() +
+                           "\n  likely cause: an unstable time step; the largest stable one is " +
+                           short_number(summary["solver"]["stable_time_step"].template get<double>()) +
+                           " s\n  advice: set Solver/Time step = 0");
+  }
+
+  template <int dim>
   void Simulation<dim>::record_dynamics(const ExplicitDynamics<dim> &dynamics)
   {
     const Timings::Scope scope(timings, "energy");
     const EnergyBudget   energy = dynamics.energy();
-    if (!std::isfinite(energy.kinetic) || !std::isfinite(energy.strain))
-      {
-        double     fastest = 0;
-        LocalIndex node    = 0;
-        for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
-          for (int d = 0; d < dim; ++d)
-            if (!(std::abs(dynamics.velocity.local_element(dim * i + d)) <= fastest))
-              {
-                fastest = std::abs(dynamics.velocity.local_element(dim * i + d));
-                node    = i;
-              }
-        std::ostringstream where;
-        if (scene.nodes->size() > 0)
-          where << scene.nodes->first_global + node << " at (" << scene.nodes->position[node] << ")";
-        throw ComputationError("the motion is not finite at step " + std::to_string(dynamics.step()) +
-                               ", t = " + short_number(dynamics.time()) + " s, first seen at node " +
-                               where.str() +
-                               "\n  likely cause: an unstable time step; the largest stable one is " +
-                               short_number(summary["solver"]["stable_time_step"].template get<double>()) +
-                               " s\n  advice: set Solver/Time step = 0");
-      }
+    check_finite_motion(dynamics, energy);
+    store_motion(dynamics);
     largest_energy     = std::max({largest_energy, std::abs(energy.external), energy.kinetic});
     const double drift = largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
     history->add("step", dynamics.step());
     history->add("time [s]", dynamics.time());
     history->add("kinetic energy [J]", energy.kinetic);
     history->add("strain energy [J]", energy.strain);
+    if (scene.contact)
+      history->add("contact energy [J]", energy.contact);
     history->add("dissipated energy [J]", energy.dissipated);
     history->add("damped energy [J]", energy.damped);
     history->add("external work [J]", energy.external);
@@ -317,13 +331,22 @@ namespace perideal
     double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
     if (std::abs(drift) > std::abs(worst))
       worst = drift;
-    summary["energy"]                 = {{"strain", energy.strain},
-                                         {"kinetic", energy.kinetic},
-                                         {"dissipated", energy.dissipated},
-                                         {"damped", energy.damped},
-                                         {"external", energy.external},
-                                         {"drift", worst}};
-    summary["damage"]["broken_bonds"] = dynamics.n_broken();
+    summary["energy"]                     = {{"strain", energy.strain},
+                                             {"kinetic", energy.kinetic},
+                                             {"contact", energy.contact},
+                                             {"dissipated", energy.dissipated},
+                                             {"damped", energy.damped},
+                                             {"external", energy.external},
+                                             {"drift", worst}};
+    summary["damage"]["broken_bonds"]     = dynamics.n_broken();
+    summary["momentum"]                   = nlohmann::ordered_json::array();
+    const dealii::Tensor<1, dim> momentum = dynamics.momentum();
+    for (int d = 0; d < dim; ++d)
+      summary["momentum"].push_back(momentum[d]);
+    if (scene.contact)
+      summary["contact"] = {{"pairs", scene.contact->n_contacts()},
+                            {"largest_overlap", scene.contact->largest_overlap()},
+                            {"searches", scene.contact->n_searches()}};
   }
 
   template <int dim>
@@ -343,9 +366,9 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics)
+  void Simulation<dim>::store_motion(const ExplicitDynamics<dim> &dynamics)
   {
-    const Timings::Scope scope(timings, "output");
+    motion_time = dynamics.time();
     scene.displacement.resize(scene.nodes->size());
     scene.velocity.resize(scene.nodes->size());
     for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
@@ -354,8 +377,20 @@ namespace perideal
           scene.displacement[i][d] = dynamics.displacement.local_element(dim * i + d);
           scene.velocity[i][d]     = dynamics.velocity.local_element(dim * i + d);
         }
+  }
+
+  template <int dim>
+  void Simulation<dim>::write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics)
+  {
+    const Timings::Scope scope(timings, "output");
+    if (motion_time != dynamics.time())
+      {
+        check_finite_motion(dynamics, dynamics.energy());
+        store_motion(dynamics);
+      }
     add_output_fields(scene, parameters.field_names(), *field_output);
     field_output->write(number, dynamics.time());
+    frame_time = dynamics.time();
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \

@@ -32,7 +32,7 @@ namespace perideal
     ghosted.reinit(this->partitioner);
     if (n_sums > 0)
       ghosted_states.reinit(families->make_partitioner(n_sums));
-    positions.resize(families->n_local(), NodeRecord{});
+    position.resize(families->n_local(), NodeRecord{});
     forces.resize(families->n_local(), NodeRecord{});
     for (unsigned int a = 0; a < n_sums; ++a)
       {
@@ -57,7 +57,7 @@ namespace perideal
                         memory_consumption(map.entries) + memory_consumption(energy) +
                         memory_consumption(rest_length) + memory_consumption(critical_stretch) +
                         regions.memory_consumption() + 3 * memory_consumption(family_volume) +
-                        memory_consumption(broken_slots) + 2 * positions.size() * sizeof(NodeRecord) +
+                        this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
                         2 * n_sums * families->n_local() * sizeof(double) + ghosted.memory_consumption() +
                         ghosted_states.memory_consumption();
     for (const Sums *weights : {&sum_weight, &force_weight})

@@ -21,7 +21,7 @@ namespace perideal
     double square = 0, growth = 0;
     for (int d = 0; d < dim; ++d)
       {
-        const double along = positions[j].value[d] - positions[i].value[d];
+        const double along = position[j].value[d] - position[i].value[d];
         square += along * along;
         growth += along * (velocity(j, d) - velocity(i, d));
       }

@@ -62,8 +62,10 @@ namespace perideal
           {
             remove(slot);
             lose(slot, i, cut_volume);
+            this->lost.push_back({slot, i, bonds.neighbour[slot]});
             ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
+    n_cut = this->lost.size();
     return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
   }
 
@@ -101,7 +103,7 @@ namespace perideal
             bond.far_force[a]  = force_weights()[a].far[slot];
           }
         broken_now.push_back(bond);
-        broken_slots.push_back(slot);
+        this->lost.push_back({slot, i, bond.far});
         remove(slot);
         lose(slot, i, broken_volume);
       }
@@ -127,9 +129,8 @@ namespace perideal
   std::vector<BondEnds> FamilyForce<dim, n_sums, own_force_weights>::broken_bonds() const
   {
     std::vector<BondEnds> result;
-    result.reserve(broken_slots.size());
-    for (const BondIndex slot : broken_slots)
-      result.push_back({near_end(slot), bonds.neighbour[slot]});
+    for (std::size_t k = n_cut; k < this->lost.size(); ++k)
+      result.push_back({this->lost[k].near, this->lost[k].far});
     return result;
   }
 
@@ -141,7 +142,7 @@ namespace perideal
         const BondIndex slot = bonds.find(ends.near, ends.far);
         if (slot == BondList::no_slot || !carries_force(slot))
           continue;
-        broken_slots.push_back(slot);
+        this->lost.push_back({slot, ends.near, ends.far});
         remove(slot);
         lose(slot, ends.near, broken_volume);
       }

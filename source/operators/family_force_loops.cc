@@ -20,11 +20,11 @@ namespace perideal
       }
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
-        positions[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
+        position[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
     // A displacement that rounding takes from the position has moved nothing.
     regions.update([&](const LocalIndex i) {
       for (int d = 0; d < dim; ++d)
-        if (positions[i].value[d] != families->position[i][d])
+        if (position[i].value[d] != families->position[i][d])
           return true;
       return false;
     });
@@ -37,8 +37,8 @@ namespace perideal
     // Operation by operation as in the loops below: a body at rest has no extension, not even by rounding.
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
-        positions[i].value[d] = families->position[i][d];
-    const NodeRecord *y = positions.data();
+        position[i].value[d] = families->position[i][d];
+    const NodeRecord *y = position.data();
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
         {
@@ -62,7 +62,7 @@ namespace perideal
     for (unsigned int a = 0; a < n_sums; ++a)
       std::fill(sums[a].begin(), sums[a].end(), 0.);
     const LocalIndex *neighbour = bonds.neighbour.data();
-    const NodeRecord *y         = positions.data();
+    const NodeRecord *y         = position.data();
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
@@ -113,7 +113,7 @@ namespace perideal
   void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
   {
     const LocalIndex *neighbour    = bonds.neighbour.data();
-    const NodeRecord *y            = positions.data();
+    const NodeRecord *y            = position.data();
     NodeRecord       *f            = forces.data();
     const auto       &pull_weights = force_weights();
     const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0

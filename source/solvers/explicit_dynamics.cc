@@ -26,11 +26,20 @@ namespace perideal
   }
 
   template <int dim>
+  void ExplicitDynamics<dim>::set_relative_damping(RelativeDamping<dim> *damping)
+  {
+    relative_damping = damping;
+    bonds.initialize(relative_drag);
+  }
+
+  template <int dim>
   void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
   {
     bonds.compute(force, displacement);
     newly_broken = bonds.n_broken_now();
     broken += newly_broken;
+    if (contact)
+      contact->add(force, bonds);
     if (n_steps == 0 && start == Start::velocity_verlet)
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
         velocity.local_element(k) -=
@@ -39,16 +48,19 @@ namespace perideal
       dissipated += bonds.released_energy(velocity, time_step);
 
     earlier_velocity.swap(velocity);
+    if (relative_damping)
+      relative_damping->compute(relative_drag, earlier_velocity, bonds);
     held.set_velocities(loads, time(), time_step, displacement, velocity);
     const std::uint8_t *is_held = held.mask().data();
     const double       *f = force.begin(), *p = external.begin(), *before = earlier_velocity.begin();
+    const double       *relative = relative_damping ? relative_drag.begin() : nullptr;
     double             *after = velocity.begin(), *support = support_force.begin();
     // Twice the work that the forces do in the halves of a step before and after the present time.
     double kinetic_sum = 0, work_before = 0, work_after = 0, damped_before = 0, damped_after = 0;
     for (std::size_t i = 0; i < mass.size(); ++i)
       for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
         {
-          const double drag = damping * mass[i] * before[k];
+          const double drag = damping * mass[i] * before[k] - (relative ? relative[k] : 0.);
           const double free = f[k] + p[k] - drag;
           if (is_held[k])
             support[k] = mass[i] * (after[k] - before[k]) / time_step - free;
@@ -105,10 +117,21 @@ namespace perideal
     EnergyBudget result;
     result.kinetic    = sum(kinetic, communicator);
     result.strain     = bonds.strain_energy();
+    result.contact    = contact ? contact->energy() : 0.;
     result.dissipated = dissipated;
     result.damped     = sum(damped, communicator);
     result.external   = sum(external_work, communicator);
     return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> ExplicitDynamics<dim>::momentum() const
+  {
+    dealii::Tensor<1, dim> result;
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        result[d] += mass[i] * velocity.local_element(dim * i + d);
+    return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
   }
 
   template class ExplicitDynamics<2>;

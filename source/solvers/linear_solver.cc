@@ -79,6 +79,11 @@ namespace perideal
       "step before; central differences both",
       Selection("velocity verlet|symplectic euler"));
     prm.add_parameter("Damping", damping, "Viscous force over mass and velocity, >= 0 [1/s]", Double());
+    prm.add_parameter("Relative damping",
+                      relative_damping,
+                      "Rate at which the motion of a node against its family dies out, >= 0 [1/s]; rigid "
+                      "motions are not damped",
+                      Double());
     prm.leave_subsection();
   }
 
@@ -95,6 +100,8 @@ namespace perideal
     check_range(time_step >= 0 && std::isfinite(time_step), "Time step", "a time > 0, or 0: chosen");
     check_range(time_step_safety > 0 && time_step_safety <= 1, "Time step safety", "0 < safety <= 1");
     check_range(damping >= 0 && std::isfinite(damping), "Damping", "a number >= 0");
+    check_range(
+      relative_damping >= 0 && std::isfinite(relative_damping), "Relative damping", "a number >= 0");
     if (!(tolerance > 0 && tolerance < 1))
       throw InputError("the tolerance is out of range")
         .parameter("Solver/Tolerance")

@@ -23,6 +23,9 @@ namespace perideal
   /// Whether bonds of the scene may break.
   bool can_break(const SceneParameters &parameters);
 
+  /// Whether nodes repel each other that come too close.
+  bool has_contact(const SceneParameters &parameters);
+
   /// What the scene does not need, by name, with the amount saved.
   template <int dim>
   nlohmann::ordered_json list_skipped(const SceneParameters &parameters, const SceneState<dim> &scene);

@@ -8,6 +8,7 @@
 #include <perideal/mesh/mesh_parameters.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/operators/contact_force.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
@@ -82,6 +83,7 @@ namespace perideal
     NoFailParameters     no_fail;
     CrackParameters      cracks;
     CheckpointParameters checkpoints;
+    ContactParameters    contact;
     ComparisonParameters comparison;
 
     /// Declares all parameters, reads the values and checks their ranges.

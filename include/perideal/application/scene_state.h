@@ -17,7 +17,9 @@
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
+#include <perideal/operators/contact_force.h>
 #include <perideal/operators/null_space.h>
+#include <perideal/operators/relative_damping.h>
 #include <perideal/quadrature/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
 
@@ -77,6 +79,9 @@ namespace perideal
     GlobalIndex                             n_no_fail_nodes = 0;
     std::unique_ptr<CrackTracker<dim>>      crack_tracker;
     std::unique_ptr<BondForce<dim>>         force;
+    /// Where the scene has them.
+    std::unique_ptr<ContactForce<dim>>    contact;
+    std::unique_ptr<RelativeDamping<dim>> relative_damping;
 
     /// Displacement of the nodes after the last step, rigid-body motions removed; in dynamics their velocity.
     NodalField<dim> displacement, velocity;

@@ -78,7 +78,6 @@ namespace perideal
     /// False when the program was asked to stop.
     bool run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
     void record_dynamics(const ExplicitDynamics<dim> &dynamics);
-    void write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
     void save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step);
     /// Reads the last checkpoint and holds its scene against this one.
     void open_checkpoint();
@@ -90,6 +89,14 @@ namespace perideal
                            const DynamicRelaxation<dim> &relaxation);
     /// The tips of cracks, in the row of the history. Collective.
     void record_crack_tips(const ExplicitDynamics<dim> &dynamics);
+    void   make_relative_damping();
+    void   make_contact();
+    /// Of explicit dynamics, with the scene's damping [s]. Collective.
+    double largest_stable_step() const;
+    void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    /// @throws ComputationError on all ranks when the motion is not finite. Collective.
+    void check_finite_motion(const ExplicitDynamics<dim> &dynamics, const EnergyBudget &energy);
+    void store_motion(const ExplicitDynamics<dim> &dynamics);
     /// Share of the family behind broken bonds and precracks, by owned node.
     std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
@@ -116,6 +123,8 @@ namespace perideal
     std::unique_ptr<Checkpoint> resumed;
     /// Broken bonds when the cracks were last looked at.
     GlobalIndex broken_in_cracks = 0;
+    /// When the stored motion was, and the last one written [s].
+    double motion_time = -1, frame_time = -1;
 
     std::unique_ptr<History>          history;
     std::unique_ptr<FieldOutput<dim>> field_output;

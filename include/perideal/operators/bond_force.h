@@ -2,6 +2,7 @@
 #ifndef perideal_operators_bond_force_h
 #define perideal_operators_bond_force_h
 
+#include <perideal/base/lanes.h>
 #include <perideal/operators/family_weights.h>
 
 #include <functional>
@@ -69,6 +70,20 @@ namespace perideal
      */
     virtual double released_energy(const NodalVector &velocity, const double time_step) const = 0;
 
+    /// A bond that carries nothing any more.
+    struct LostBond
+    {
+      BondIndex  slot;
+      LocalIndex near, far;
+    };
+
+    /// The bonds of this rank that were cut or broke, in the order in which they went; one that the
+    /// partition cuts stands on both ranks.
+    const std::vector<LostBond> &lost_bonds() const { return lost; }
+
+    /// Positions of the local nodes at the last compute(), ghosts included [m].
+    virtual const NodeRecord *positions() const = 0;
+
     /// Dilatation at the last compute() by owned node; 0 where the model needs none.
     virtual std::vector<double> dilatation() const = 0;
 
@@ -86,6 +101,7 @@ namespace perideal
 
   protected:
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    std::vector<LostBond>                                      lost;
   };
 
   /// The force of weighed bonds; it keeps its own copy of their weights.

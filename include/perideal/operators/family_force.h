@@ -37,6 +37,7 @@ namespace perideal
     const BondList       &bond_list() const override { return bonds; }
     double                strain_energy() const override;
     double                released_energy(const NodalVector &velocity, const double time_step) const override;
+    const NodeRecord     *positions() const override { return position.data(); }
     std::vector<double>   dilatation() const override
     {
       if constexpr (n_sums == 0)
@@ -135,10 +136,10 @@ namespace perideal
     std::vector<double> family_volume, broken_volume, cut_volume;
 
     std::vector<BrokenBond> broken_now;
-    /// All that broke, in this order.
-    std::vector<BondIndex> broken_slots;
+    /// Of the lost bonds, those that were cut at the beginning.
+    std::size_t n_cut = 0;
 
-    dealii::AlignedVector<NodeRecord>       positions, forces;
+    dealii::AlignedVector<NodeRecord>       position, forces;
     std::array<std::vector<double>, n_sums> sums, state;
     NodalVector                             ghosted, ghosted_states;
   };

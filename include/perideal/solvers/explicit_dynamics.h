@@ -4,6 +4,10 @@
 
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/operators/bond_force.h>
+#include <perideal/operators/contact_force.h>
+#include <perideal/operators/relative_damping.h>
+
+#include <deal.II/base/tensor.h>
 
 #include <vector>
 
@@ -13,11 +17,13 @@ namespace perideal
   struct EnergyBudget
   {
     double kinetic = 0, strain = 0;
+    /// Of nodes pressed on each other.
+    double contact = 0;
     /// Set free by breaking bonds; taken by damping; put in by loads and supports.
     double dissipated = 0, damped = 0, external = 0;
 
     /// What was put in less what is there [J]: zero but for the error of the integration.
-    double imbalance() const { return external - (kinetic + strain + dissipated + damped); }
+    double imbalance() const { return external - (kinetic + strain + contact + dissipated + damped); }
   };
 
   /**
@@ -48,6 +54,10 @@ namespace perideal
                      const double               time_step,
                      const Start                start);
 
+    /// Adds contact, or damping of relative velocities; what is added must outlive this object.
+    void set_contact(ContactForce<dim> *force) { contact = force; }
+    void set_relative_damping(RelativeDamping<dim> *damping);
+
     /// Forces, velocities of the next half step and energies at the present time;
     /// to be followed by advance(). Collective.
     /// @param external force of the loads [N]
@@ -71,6 +81,8 @@ namespace perideal
 
     /// Energies at the present time, after evaluate(). Collective.
     EnergyBudget energy() const;
+    /// Momentum of the body half a step later, after evaluate() [kg m/s]. Collective.
+    dealii::Tensor<1, dim> momentum() const;
     /// Forces of the supports at the present time [N], zero in free components.
     const NodalVector &reaction() const { return support_force; }
     GlobalIndex        n_broken() const { return broken; }
@@ -89,7 +101,12 @@ namespace perideal
     const double               damping, time_step;
     const Start                start;
 
-    NodalVector  force, earlier_velocity, support_force;
+    ContactForce<dim>    *contact          = nullptr;
+    RelativeDamping<dim> *relative_damping = nullptr;
+
+    NodalVector force, earlier_velocity, support_force;
+    /// Of relative damping; empty without.
+    NodalVector  relative_drag;
     unsigned int n_steps = 0;
     GlobalIndex  broken = 0, newly_broken = 0;
     /// Of this rank, at the present time.

@@ -33,6 +33,8 @@ namespace perideal
     std::string integrator       = "velocity verlet";
     /// Viscous force over mass and velocity [1/s].
     double damping = 0;
+    /// Rate at which motion against the family dies out [1/s].
+    double relative_damping = 0;
 
     bool is_dynamic() const { return name == "dynamics"; }
     bool is_relaxation() const { return name == "dynamic relaxation"; }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/report.h>
+#include <perideal/application/simulation.h>
+#include <perideal/operators/stable_time_step.h>
+
+#include <cmath>
+
+// Simulation: contact and relative damping of dynamics, and the step that is stable with damping.
+
+namespace perideal
+{
+  template <int dim>
+  void Simulation<dim>::make_relative_damping()
+  {
+    if (parameters.solver.relative_damping > 0)
+      scene.relative_damping = std::make_unique<RelativeDamping<dim>>(
+        scene.weights, parameters.solver.relative_damping, [&](const dealii::types::material_id id) {
+          return properties_of(id).density;
+        });
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_contact()
+  {
+    if (!has_contact(parameters))
+      return;
+    std::vector<bool> on_surface(scene.nodes->size(), false);
+    for (const BoundaryFace<dim> &face : scene.faces)
+      on_surface[face.node] = true;
+    scene.contact = std::make_unique<ContactForce<dim>>(
+      scene.families,
+      parameters.contact,
+      parameters.nodes.horizon_factor,
+      [&](const dealii::types::material_id id) { return scene.constants.at(id).bulk_modulus(); },
+      on_surface);
+  }
+
+  template <int dim>
+  double Simulation<dim>::largest_stable_step() const
+  {
+    const double undamped = stable_time_step(
+      *scene.system, [&](const dealii::types::material_id id) { return properties_of(id).density; });
+    const double relative = scene.relative_damping ? scene.relative_damping->largest_rate() : 0.;
+    return damped_time_step(undamped, parameters.solver.damping + relative);
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void   Simulation<dim>::make_relative_damping();                                                  \
+  template void   Simulation<dim>::make_contact();                                                           \
+  template double Simulation<dim>::largest_stable_step() const;
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal
