@@ -142,6 +142,9 @@ namespace perideal
       out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
     if (parameters.solver.is_relaxation())
       out << "solver      dynamic relaxation in " << parameters.solver.load_steps << " load step(s)\n";
+    if (parameters.solver.is_dynamic() && has_contact(parameters))
+      out << "contact     of nodes without a bond, nearer than " << parameters.contact.distance
+          << " spacings\n";
     out << "not needed ";
     const Json  skipped   = list_skipped(parameters, scene);
     const char *separator = " ";

@@ -13,28 +13,32 @@ namespace perideal
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Contact");
-    prm.add_parameter("Enabled",
-                      enabled,
-                      "Whether nodes without an intact bond repel each other when they come too close, in dynamics; "
-                      "automatic: where bonds can break or there are precracks",
-                      Selection("automatic|true|false"));
+    prm.add_parameter(
+      "Enabled",
+      enabled,
+      "Whether nodes without an intact bond repel each other when they come too close, in dynamics; "
+      "automatic: where bonds can break or there are precracks",
+      Selection("automatic|true|false"));
     prm.add_parameter("Distance",
                       distance,
                       "Below which nodes repel, over their mean spacing and over their distance at rest, "
                       "0 < distance <= 1 [-]",
                       Double());
-    prm.add_parameter("Stiffness",
-                      stiffness,
-                      "Force over overlap of two nodes, in bulk moduli times volume over squared horizon, > 0; a "
-                      "whole family holds its node with 12 [-]",
-                      Double());
+    prm.add_parameter(
+      "Stiffness",
+      stiffness,
+      "Force over overlap of two nodes, in bulk moduli times volume over squared horizon, > 0; a "
+      "whole family holds its node with 12 [-]",
+      Double());
     prm.leave_subsection();
   }
 
   void ContactParameters::check() const
   {
     if (!(distance > 0 && distance <= 1))
-      throw InputError("the value is out of range").parameter("Contact/Distance").allowed("0 < distance <= 1");
+      throw InputError("the value is out of range")
+        .parameter("Contact/Distance")
+        .allowed("0 < distance <= 1");
     // Four contacts of 12 are an eigenvalue of 96 where the intact body has some 15.
     if (!(stiffness > 0 && stiffness <= 12))
       throw InputError("the value is out of range")
@@ -43,12 +47,11 @@ namespace perideal
   }
 
   template <int dim>
-  ContactForce<dim>::ContactForce(
-    const std::shared_ptr<const Families<dim>>                     &families,
-    const ContactParameters                                        &parameters,
-    const double                                                    horizon_factor,
-    const std::function<double(const dealii::types::material_id)> &bulk_modulus,
-    const std::vector<bool>                                        &on_surface)
+  ContactForce<dim>::ContactForce(const std::shared_ptr<const Families<dim>> &families,
+                                  const ContactParameters                    &parameters,
+                                  const double                                horizon_factor,
+                                  const std::function<double(const dealii::types::material_id)> &bulk_modulus,
+                                  const std::vector<bool>                                       &on_surface)
     : families(families)
     , parameters(parameters)
     , horizon_factor(horizon_factor)
@@ -63,7 +66,7 @@ namespace perideal
       {
         const double horizon = families->horizon[i];
         spacing[i]           = horizon / horizon_factor;
-        stiffness[i]         = parameters.stiffness * bulk_modulus(families->material[i]) * families->volume[i] /
+        stiffness[i] = parameters.stiffness * bulk_modulus(families->material[i]) * families->volume[i] /
                        (horizon * horizon);
       }
   }
@@ -99,8 +102,8 @@ namespace perideal
     const auto &lost = bonds.lost_bonds();
     for (; n_lost_taken < lost.size(); ++n_lost_taken)
       {
-        const Pair pair   = pair_of_lost(lost[n_lost_taken]);
-        exposed[pair.i]   = true;
+        const Pair pair = pair_of_lost(lost[n_lost_taken]);
+        exposed[pair.i] = true;
         if (pair.j < families->n_owned())
           exposed[pair.j] = true;
         // Either node may still move a whole spacing before the lists are made anew: from half a spacing
@@ -252,8 +255,8 @@ namespace perideal
       }
     if (!(square < pair.distance * pair.distance) || square == 0)
       return;
-    const bool   both    = node_j < families->n_owned();
-    const double length  = std::sqrt(square), overlap = pair.distance - length;
+    const bool   both   = node_j < families->n_owned();
+    const double length = std::sqrt(square), overlap = pair.distance - length;
     for (int d = 0; d < dim; ++d)
       {
         const double push = pair.stiffness * overlap * (along[d] / length);

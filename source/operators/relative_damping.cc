@@ -12,7 +12,7 @@ namespace perideal
   template <int dim>
   RelativeDamping<dim>::RelativeDamping(
     const std::shared_ptr<const BondWeights<dim>>                 &weights,
-    const double                                                    rate,
+    const double                                                   rate,
     const std::function<double(const dealii::types::material_id)> &density)
     : weights(weights)
     , coefficient(weights->bonds.n_slots(), 0.)
@@ -32,10 +32,9 @@ namespace perideal
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
-          coefficient[slot] =
-            0.5 * dim * rate *
-            (mass[i] * families.volume[j] / family_volume.local_element(i) +
-             mass[j] * families.volume[i] / family_volume.local_element(j));
+          coefficient[slot] = 0.5 * dim * rate *
+                              (mass[i] * families.volume[j] / family_volume.local_element(i) +
+                               mass[j] * families.volume[i] / family_volume.local_element(j));
     bound = find_largest_rate(mass);
   }
 
@@ -43,15 +42,15 @@ namespace perideal
   double RelativeDamping<dim>::find_largest_rate(const std::vector<double> &mass) const
   {
     // sum g (n.(v_i - v_j))^2 <= 2 sum_i v_i.B_i v_i with B_i = sum_j g n (x) n.
-    const Families<dim>                              &families = *weights->families;
-    const BondList                                   &bonds    = weights->bonds;
+    const Families<dim>                         &families = *weights->families;
+    const BondList                              &bonds    = weights->bonds;
     std::vector<dealii::SymmetricTensor<2, dim>> sums(families.n_local());
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
           {
             const dealii::Tensor<1, dim> bond = families.position[j] - families.position[i];
-            const auto term = coefficient[slot] / bond.norm_square() *
+            const auto                   term = coefficient[slot] / bond.norm_square() *
                               dealii::SymmetricTensor<2, dim>(outer_product(bond, bond));
             sums[i] += term;
             sums[j] += term;

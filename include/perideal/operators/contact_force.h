@@ -42,13 +42,13 @@ namespace perideal
    * In the micromodulus c = 18 K/(pi horizon^4), or 12 K/(pi h horizon^3) in 2-D, a family holds its node
    * along any direction with sum_j c V_i V_j/(dim |xi|) = 12 K V/horizon^2. Macek and Silling's stiffness,
    * 15 c/horizon, is 3.2 K V/horizon^2 in 3-D at three spacings; hence the default. Such a pair adds at most
-   * 2 x 3 K V/horizon^2 to an eigenvalue: what half a family holds, and at least half of the family is gone where
-   * nodes touch. So the stable time step of the intact body stays one until many nodes press on one.
+   * 2 x 3 K V/horizon^2 to an eigenvalue: what half a family holds, and at least half of the family is gone
+   * where nodes touch. So the stable time step of the intact body stays one until many nodes press on one.
    *
-   * Pairs are sought among two kinds. Those that were bonded once are the lost bonds; no search is needed. Others
-   * are more than a horizon apart at rest: they are sought, at present positions, once nodes have moved far enough to meet, and
-   * only between nodes on the surface or with a lost bond. Lists hold what may touch until a node has moved by half a
-   * spacing, and are made anew then.
+   * Pairs are sought among two kinds. Those that were bonded once are the lost bonds; no search is needed.
+   * Others are more than a horizon apart at rest: they are sought, at present positions, once nodes have
+   * moved far enough to meet, and only between nodes on the surface or with a lost bond. Lists hold what may
+   * touch until a node has moved by half a spacing, and are made anew then.
    */
   template <int dim>
   class ContactForce
@@ -57,13 +57,14 @@ namespace perideal
     /// @param horizon_factor horizon over spacing
     /// @param bulk_modulus by material id [Pa]
     /// @param on_surface of owned nodes
-    ContactForce(const std::shared_ptr<const Families<dim>>                     &families,
-                 const ContactParameters                                        &parameters,
-                 const double                                                    horizon_factor,
+    ContactForce(const std::shared_ptr<const Families<dim>>                    &families,
+                 const ContactParameters                                       &parameters,
+                 const double                                                   horizon_factor,
                  const std::function<double(const dealii::types::material_id)> &bulk_modulus,
-                 const std::vector<bool>                                        &on_surface);
+                 const std::vector<bool>                                       &on_surface);
 
-    /// Adds the forces [N] at the positions of the last @p bonds.compute() to those of owned nodes. Collective.
+    /// Adds the forces [N] at the positions of the last @p bonds.compute() to those of owned nodes.
+    /// Collective.
     void add(NodalVector &force, const BondForce<dim> &bonds);
 
     /// Energy of the contacts of all ranks at the last add() [J]. Collective.
@@ -93,16 +94,16 @@ namespace perideal
     /// Whether nodes of any rank are so far from rest that before the lists are old they may meet others than
     /// their family. Collective.
     bool may_meet_strangers() const;
-    void         list_lost_bonds(const BondForce<dim> &bonds);
-    void         search();
-    bool         are_family(const LocalIndex i, const GlobalIndex j) const;
+    void list_lost_bonds(const BondForce<dim> &bonds);
+    void search();
+    bool are_family(const LocalIndex i, const GlobalIndex j) const;
     /// @param node local number of the pair's ends among the families; beyond the owned ones: not owned
-    void repel(const Pair       &pair,
-               const double     *y_i,
-               const double     *y_j,
-               const LocalIndex  node_i,
-               const LocalIndex  node_j,
-               NodalVector      &force);
+    void repel(const Pair      &pair,
+               const double    *y_i,
+               const double    *y_j,
+               const LocalIndex node_i,
+               const LocalIndex node_j,
+               NodalVector     &force);
 
     std::shared_ptr<const Families<dim>> families;
     const ContactParameters              parameters;

@@ -16,12 +16,12 @@ namespace perideal
    *
    *     F_i = sum_j g_ij ((v_j - v_i).n) n,   g_ij = dim c/2 (m_i V_j/V(H_i) + m_j V_i/V(H_j)),
    *
-   * n the direction of the bond, V(H_i) the volume of the family at rest. Central and equal and opposite: momentum and
-   * angular momentum stay, and rigid motions, rotations too, are not damped at all.
+   * n the direction of the bond, V(H_i) the volume of the family at rest. Central and equal and opposite:
+   * momentum and angular momentum stay, and rigid motions, rotations too, are not damped at all.
    *
    * After K. Yu's eq. (3.64), f = c (s + c_v (v_j - v_i)) n, where a scalar and a vector are added: what is
-   * meant is the part of the velocity along n. There damping goes with the stiffness of a bond, here with masses, so that its
-   * rate is the same on every mesh.
+   * meant is the part of the velocity along n. There damping goes with the stiffness of a bond, here with
+   * masses, so that its rate is the same on every mesh.
    */
   template <int dim>
   class RelativeDamping
@@ -31,7 +31,7 @@ namespace perideal
     /// @param rate c [1/s]
     /// @param density by material id [kg/m^3]
     RelativeDamping(const std::shared_ptr<const BondWeights<dim>>                 &weights,
-                    const double                                                    rate,
+                    const double                                                   rate,
                     const std::function<double(const dealii::types::material_id)> &density);
 
     /// Writes the forces on owned nodes [N] at the positions of the last @p bonds.compute(). Collective.

@@ -27,8 +27,8 @@ namespace
       parameters.resolve(dim);
       const ElasticConstants constants{
         1., 0.25, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
-      bonds = create_bond_force<dim>(
-        weigh_bonds<dim>(body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
+      bonds = create_bond_force<dim>(weigh_bonds<dim>(
+        body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
           return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
         }));
       bonds->cut([](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
@@ -69,7 +69,8 @@ namespace
 
   /// Every pair of all ranks without a bond, one by one: forces by global number.
   template <int dim>
-  std::vector<double> forces_by_definition(const CutBody<dim> &cut, const ContactParameters &parameters, double &energy)
+  std::vector<double>
+  forces_by_definition(const CutBody<dim> &cut, const ContactParameters &parameters, double &energy)
   {
     // Position at rest, present position, volume, spacing.
     std::vector<std::array<double, 2 * dim + 2>> own(cut.body.nodes.size());
@@ -129,7 +130,8 @@ namespace
 
   /// Forces and energy are those of the definition.
   template <int dim>
-  void expect_definition(CutBody<dim> &cut, const ContactParameters &parameters, const unsigned int least_pairs)
+  void
+  expect_definition(CutBody<dim> &cut, const ContactParameters &parameters, const unsigned int least_pairs)
   {
     double     energy;
     const auto expected = forces_by_definition(cut, parameters, energy);
@@ -183,7 +185,8 @@ namespace
           cut.force_of(halves(-0.08));
           expect_definition(cut, parameters, 3);
 
-          // Half a body that is carried elsewhere and turned over meets strangers, in small moves and in a jump.
+          // Half a body that is carried elsewhere and turned over meets strangers, in small moves and in a
+          // jump.
           CutBody<dim> jumped(*mesh, parameters);
           const auto   turned = [](const double angle) {
             return [=](const dealii::Point<dim> &x) {

@@ -7,7 +7,6 @@
 #include "testing.h"
 
 #include <cmath>
-#include <limits>
 
 using namespace perideal;
 
@@ -22,7 +21,8 @@ namespace
       : mesh(test::make_box<2>({16, 8}, {2., 1.}, 0.15))
       , body(*mesh, horizon_factor)
       , loads(LoadParameters())
-      , held(find_boundary_faces(*mesh, body.nodes), loads, resolve_boundaries(*mesh, loads), body.nodes.size())
+      , held(
+          find_boundary_faces(*mesh, body.nodes), loads, resolve_boundaries(*mesh, loads), body.nodes.size())
       , mass(body.nodes.volume)
     {
       ModelParameters parameters;
@@ -66,7 +66,8 @@ namespace
 
     void cut_in_the_middle()
     {
-      bonds->cut([](const dealii::Point<2> &a, const dealii::Point<2> &b) { return (a[0] < 1) != (b[0] < 1); });
+      bonds->cut(
+        [](const dealii::Point<2> &a, const dealii::Point<2> &b) { return (a[0] < 1) != (b[0] < 1); });
     }
 
     bool is_left(const LocalIndex i) const { return body.nodes.position[i][0] < 1.; }
@@ -168,8 +169,8 @@ namespace
   }
 } // namespace
 
-/// Errors go with the square of the step: 2 to 5 % at the usual step and a tenth of the wave speed between the
-/// blocks, less than 1e-4 at a fiftieth of it and a sixteenth of the step.
+/// Errors go with the square of the step: 2 to 5 % at the usual step and a tenth of the wave speed between
+/// the blocks, less than 1e-4 at a fiftieth of it and a sixteenth of the step.
 TEST(Collisions, BlocksThatWereBondedBounce)
 {
   const dealii::Point<2> start(0.3, 0.);
@@ -226,7 +227,7 @@ TEST(Collisions, RelativeDampingTakesVibrationAlone)
 {
   Blocks blocks("extended ordinary", 0.5);
   auto   motion = blocks.dynamics(0.5 * damped_time_step(blocks.stable, blocks.damping->largest_rate()));
-  double mass = 0;
+  double mass   = 0;
   for (LocalIndex i = 0; i < blocks.body.nodes.size(); ++i)
     {
       mass += blocks.mass[i];
