@@ -82,6 +82,7 @@ namespace perideal
                          {"frames", frame_times},
                          {"damage", summary["damage"]},
                          {"energy", summary["energy"]},
+                         {"contact", summary.value("contact", Json::object())},
                          {"parameters", context.parameters}};
     checkpoint.fields["displacement"].assign(dynamics.displacement.begin(), dynamics.displacement.end());
     checkpoint.fields["velocity"].assign(dynamics.velocity.begin(), dynamics.velocity.end());
@@ -91,6 +92,9 @@ namespace perideal
     checkpoint.broken = scene.force->broken_bonds();
     write_checkpoint(
       parameters.output_directory, checkpoint, checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families));
+    // The run that goes on makes its lists anew; this one does so too, for the same order of sums.
+    if (scene.contact)
+      scene.contact->forget_lists();
   }
 
   template <int dim>
@@ -130,6 +134,8 @@ namespace perideal
     field_output->resume(frame_times);
     summary["damage"] = header.at("damage");
     summary["energy"] = header.at("energy");
+    if (scene.contact)
+      summary["contact"] = header.at("contact");
     resumed.reset();
   }
 

@@ -344,9 +344,13 @@ namespace perideal
     for (int d = 0; d < dim; ++d)
       summary["momentum"].push_back(momentum[d]);
     if (scene.contact)
-      summary["contact"] = {{"pairs", scene.contact->n_contacts()},
-                            {"largest_overlap", scene.contact->largest_overlap()},
-                            {"searches", scene.contact->n_searches()}};
+      {
+        const double before =
+          summary.contains("contact") ? summary["contact"].value("largest_overlap", 0.) : 0.;
+        summary["contact"] = {{"pairs", scene.contact->n_contacts()},
+                              {"largest_overlap", std::max(before, scene.contact->largest_overlap())},
+                              {"searches", scene.contact->n_searches()}};
+      }
   }
 
   template <int dim>

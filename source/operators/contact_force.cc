@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/nodes/curve_order.h>
 #include <perideal/operators/contact_force.h>
 
 #include <deal.II/base/mpi.h>
@@ -164,7 +165,7 @@ namespace perideal
   }
 
   template <int dim>
-  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j) const
+  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const
   {
     const GlobalIndex first   = families->global_number(0);
     const LocalIndex  n_owned = families->n_owned();
@@ -179,33 +180,48 @@ namespace perideal
           return false;
         local_j = n_owned + (at - ghosts.begin());
       }
-    return std::binary_search(families->begin(i), families->end(i), local_j);
+    return bonds.find(i, local_j) != BondList::no_slot;
   }
 
   template <int dim>
-  void ContactForce<dim>::search()
+  NodeCloud<dim> ContactForce<dim>::candidates()
   {
-    // A cloud of the present positions, with horizons that pairs can come from until the lists are old.
-    NodeCloud<dim> cloud;
-    const double   radius = parameters.distance + 1.;
-    found_node.clear();
+    NodeCloud<dim>                  cloud;
+    std::vector<LocalIndex>         candidate;
+    std::vector<dealii::Point<dim>> present;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
         dealii::Point<dim> y;
         for (int d = 0; d < dim; ++d)
           y[d] = position[i].value[d];
-        if (!exposed[i] || !std::isfinite(y.square()))
-          continue;
+        if (exposed[i] && std::isfinite(y.square()))
+          {
+            candidate.push_back(i);
+            present.push_back(y);
+          }
+      }
+    // Debris is no longer in the order of the body.
+    found_node.clear();
+    for (const LocalIndex k : order_along_curve(present))
+      {
+        const LocalIndex i = candidate[k];
         found_node.push_back(i);
-        cloud.position.push_back(y);
+        cloud.position.push_back(present[k]);
         cloud.volume.push_back(families->volume[i]);
         cloud.spacing.push_back(spacing[i]);
-        cloud.horizon.push_back(radius * spacing[i]);
+        cloud.horizon.push_back(search_radius() * spacing[i]);
         cloud.material.push_back(families->material[i]);
       }
     cloud.communicator = families->communicator;
     cloud.number();
-    const GlobalIndex n_all =
+    return cloud;
+  }
+
+  template <int dim>
+  void ContactForce<dim>::search(const BondList &bonds)
+  {
+    const NodeCloud<dim> cloud = candidates();
+    const GlobalIndex    n_all =
       dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(families->n_owned()), families->communicator);
     left_out = n_all - cloud.n_global;
     ++searches;
@@ -220,14 +236,14 @@ namespace perideal
       number.local_element(a) = families->global_number(found_node[a]);
     number.update_ghost_values();
     const auto constants = [&](const LocalIndex a) {
-      const double h = found.horizon[a] / radius;
+      const double h = found.horizon[a] / search_radius();
       return std::make_pair(h,
                             parameters.stiffness * bulk_modulus(found.material[a]) * found.volume[a] /
                               (h * h * horizon_factor * horizon_factor));
     };
     for (LocalIndex a = 0; a < found_node.size(); ++a)
       for (const LocalIndex *b = std::upper_bound(found.begin(a), found.end(a), a); b != found.end(a); ++b)
-        if (!are_family(found_node[a], static_cast<GlobalIndex>(number.local_element(*b))))
+        if (!are_family(found_node[a], static_cast<GlobalIndex>(number.local_element(*b)), bonds))
           {
             const auto of_a = constants(a), of_b = constants(*b);
             strangers.push_back({a,
@@ -280,7 +296,7 @@ namespace perideal
       {
         list_lost_bonds(bonds);
         if (may_meet_strangers())
-          search();
+          search(bonds.bond_list());
         else
           {
             strangers.clear();

@@ -53,13 +53,13 @@ namespace perideal
   std::size_t FamilyForce<dim, n_sums, own_force_weights>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    std::size_t bytes = bonds.memory_consumption() + memory_consumption(stiffness) +
-                        memory_consumption(map.entries) + memory_consumption(energy) +
-                        memory_consumption(rest_length) + memory_consumption(critical_stretch) +
-                        regions.memory_consumption() + 3 * memory_consumption(family_volume) +
-                        this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
-                        2 * n_sums * families->n_local() * sizeof(double) + ghosted.memory_consumption() +
-                        ghosted_states.memory_consumption();
+    std::size_t bytes =
+      bonds.memory_consumption() + memory_consumption(stiffness) + memory_consumption(map.entries) +
+      memory_consumption(energy) + memory_consumption(rest_length) + memory_consumption(critical_stretch) +
+      regions.memory_consumption() + 3 * memory_consumption(family_volume) +
+      this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
+      2 * n_sums * families->n_local() * sizeof(double) + ghosted.memory_consumption() +
+      ghosted_states.memory_consumption();
     for (const Sums *weights : {&sum_weight, &force_weight})
       for (const Ends &ends : *weights)
         bytes += memory_consumption(ends.near) + memory_consumption(ends.far);

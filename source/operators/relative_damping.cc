@@ -14,7 +14,7 @@ namespace perideal
     const std::shared_ptr<const BondWeights<dim>>                 &weights,
     const double                                                   rate,
     const std::function<double(const dealii::types::material_id)> &density)
-    : weights(weights)
+    : families(weights->families)
     , coefficient(weights->bonds.n_slots(), 0.)
   {
     const Families<dim> &families = *weights->families;
@@ -35,30 +35,28 @@ namespace perideal
           coefficient[slot] = 0.5 * dim * rate *
                               (mass[i] * families.volume[j] / family_volume.local_element(i) +
                                mass[j] * families.volume[i] / family_volume.local_element(j));
-    bound = find_largest_rate(mass);
+    bound = find_largest_rate(bonds, mass);
   }
 
   template <int dim>
-  double RelativeDamping<dim>::find_largest_rate(const std::vector<double> &mass) const
+  double RelativeDamping<dim>::find_largest_rate(const BondList &bonds, const std::vector<double> &mass) const
   {
     // sum g (n.(v_i - v_j))^2 <= 2 sum_i v_i.B_i v_i with B_i = sum_j g n (x) n.
-    const Families<dim>                         &families = *weights->families;
-    const BondList                              &bonds    = weights->bonds;
-    std::vector<dealii::SymmetricTensor<2, dim>> sums(families.n_local());
+    std::vector<dealii::SymmetricTensor<2, dim>> sums(families->n_local());
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
           {
-            const dealii::Tensor<1, dim> bond = families.position[j] - families.position[i];
+            const dealii::Tensor<1, dim> bond = families->position[j] - families->position[i];
             const auto                   term = coefficient[slot] / bond.norm_square() *
                               dealii::SymmetricTensor<2, dim>(outer_product(bond, bond));
             sums[i] += term;
             sums[j] += term;
           }
     double result = 0;
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
       result = std::max(result, 2 * eigenvalues(sums[i])[0] / mass[i]);
-    return dealii::Utilities::MPI::max(result, families.communicator);
+    return dealii::Utilities::MPI::max(result, families->communicator);
   }
 
   template <int dim>
@@ -72,8 +70,8 @@ namespace perideal
 
     std::copy(velocity.begin(), velocity.end(), ghosted_velocity.begin());
     ghosted_velocity.update_ghost_values();
-    const BondList   &bonds   = weights->bonds;
-    const LocalIndex  n_owned = weights->families->n_owned();
+    const BondList   &bonds   = bond_force.bond_list();
+    const LocalIndex  n_owned = families->n_owned();
     const NodeRecord *y       = bond_force.positions();
     const double     *v       = ghosted_velocity.begin();
     double           *f       = force.begin();

@@ -89,8 +89,8 @@ namespace perideal
                            const DynamicRelaxation<dim> &relaxation);
     /// The tips of cracks, in the row of the history. Collective.
     void record_crack_tips(const ExplicitDynamics<dim> &dynamics);
-    void   make_relative_damping();
-    void   make_contact();
+    void make_relative_damping();
+    void make_contact();
     /// Of explicit dynamics, with the scene's damping [s]. Collective.
     double largest_stable_step() const;
     void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);

@@ -67,6 +67,9 @@ namespace perideal
     /// Collective.
     void add(NodalVector &force, const BondForce<dim> &bonds);
 
+    /// Makes its lists anew in the next add(), as a run does that goes on from here.
+    void forget_lists() { has_lists = false; }
+
     /// Energy of the contacts of all ranks at the last add() [J]. Collective.
     double energy() const;
 
@@ -95,8 +98,12 @@ namespace perideal
     /// their family. Collective.
     bool may_meet_strangers() const;
     void list_lost_bonds(const BondForce<dim> &bonds);
-    void search();
-    bool are_family(const LocalIndex i, const GlobalIndex j) const;
+    /// Over the spacing: what may come within the contact distance until the lists are old.
+    double search_radius() const { return parameters.distance + 1.; }
+    /// What may touch, at present positions; sets found_node.
+    NodeCloud<dim> candidates();
+    void           search(const BondList &bonds);
+    bool           are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const;
     /// @param node local number of the pair's ends among the families; beyond the owned ones: not owned
     void repel(const Pair      &pair,
                const double    *y_i,

@@ -49,9 +49,9 @@ namespace perideal
     double largest_rate() const { return bound; }
 
   private:
-    double find_largest_rate(const std::vector<double> &mass) const;
+    double find_largest_rate(const BondList &bonds, const std::vector<double> &mass) const;
 
-    std::shared_ptr<const BondWeights<dim>> weights;
+    std::shared_ptr<const Families<dim>> families;
     /// g_ij by slot [kg/s].
     std::vector<double> coefficient;
     std::size_t         n_lost_taken = 0;
