@@ -326,7 +326,7 @@ TEST(BondForce, WeighsFamiliesOfNothing)
   parameters.multipliers = "after the cut";
   parameters.resolve(2);
   const auto all   = [](const dealii::Point<2> &, const dealii::Point<2> &) { return true; };
-  const auto bonds = create_bond_force<2>(weigh_bonds<2>(
+  const auto bonds = create_bond_force<2>(*weigh_bonds<2>(
     body.families,
     *create_model<2>(parameters, 1.),
     [](const dealii::types::material_id) {

@@ -27,7 +27,7 @@ namespace
       parameters.resolve(dim);
       const ElasticConstants constants{
         1., 0.25, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
-      bonds = create_bond_force<dim>(weigh_bonds<dim>(
+      bonds = create_bond_force<dim>(*weigh_bonds<dim>(
         body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
           return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
         }));

@@ -28,7 +28,7 @@ namespace
         body.families, *create_model<dim>(parameters, 1.), [](const dealii::types::material_id) {
           return Moduli{1., 0.6};
         });
-      bonds   = create_bond_force<dim>(weights);
+      bonds   = create_bond_force<dim>(*weights);
       damping = std::make_unique<RelativeDamping<dim>>(
         weights, rate, [](const dealii::types::material_id) { return density; });
       for (NodalVector *vector : {&force, &displacement, &velocity})

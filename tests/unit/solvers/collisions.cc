@@ -42,7 +42,7 @@ namespace
       const auto             density = [](const dealii::types::material_id) { return 1.; };
       stable                         = stable_time_step<2>(system, density);
 
-      bonds   = create_bond_force<2>(weights);
+      bonds   = create_bond_force<2>(*weights);
       contact = std::make_unique<ContactForce<2>>(
         body.families,
         ContactParameters(),
