@@ -326,7 +326,7 @@ namespace perideal
           history->add("reaction of " + scene.loads.conditions[k].name + " along " + axes[d] + " [N]",
                        reactions[k][d]);
     if (scene.crack_tracker)
-      record_crack_tips(dynamics);
+      record_crack_tips(dynamics.n_broken(), dynamics.time());
     history->end_row();
     double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
     if (std::abs(drift) > std::abs(worst))
@@ -354,13 +354,13 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::record_crack_tips(const ExplicitDynamics<dim> &dynamics)
+  void Simulation<dim>::record_crack_tips(const GlobalIndex n_broken, const double time)
   {
-    if (dynamics.n_broken() != broken_in_cracks)
+    if (n_broken != broken_in_cracks)
       scene.crack_tracker->collect();
-    broken_in_cracks   = dynamics.n_broken();
+    broken_in_cracks   = n_broken;
     const char *axes[] = {"x", "y", "z"};
-    for (const auto &tip : scene.crack_tracker->tips(dynamics.time()))
+    for (const auto &tip : scene.crack_tracker->tips(time))
       {
         for (int d = 0; d < dim; ++d)
           history->add(std::string("tip ") + axes[d] + " of " + tip.name + " [m]", tip.position[d]);

@@ -77,6 +77,8 @@ namespace perideal
         DynamicRelaxation<dim> relaxation(*scene.force, *scene.system, scene.held, scene.loads, controls);
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
           relax_step(number, relaxation);
+        if (scene.crack_tracker)
+          scene.crack_tracker->write_paths(parameters.output_directory);
       }
     catch (const ComputationError &)
       {
@@ -143,6 +145,12 @@ namespace perideal
     history->add("broken bonds", relaxation.n_broken());
     record_reactions<dim>(
       scene.loads, scene.held.sum_by_condition(relaxation.reaction(), communicator), *history, summary);
+    if (scene.crack_tracker)
+      {
+        scene.crack_tracker->update(time, total_damage());
+        record_crack_tips(relaxation.n_broken(), time);
+        summary["cracks"] = scene.crack_tracker->describe();
+      }
     history->end_row();
     summary["energy"] = {{"strain", energy.strain},
                          {"dissipated", energy.dissipated},
@@ -153,16 +161,12 @@ namespace perideal
     if (result.broken > 0 && !summary["damage"].contains("first_break_time"))
       summary["damage"]["first_break_time"] = time;
     summary["damage"]["broken_bonds"] = relaxation.n_broken();
-    if (result.broken == 0 && summary["damage"].contains("fragments"))
-      return;
-    const std::vector<double> damage = total_damage();
-    summary["damage"]["fragments"]   = find_fragments(
-      *scene.families, scene.force->bond_list(), scene.nodes->spacing, damage, parameters.cracks.damage);
-    if (scene.crack_tracker)
-      {
-        scene.crack_tracker->update(time, damage);
-        summary["cracks"] = scene.crack_tracker->describe();
-      }
+    if (result.broken > 0 || !summary["damage"].contains("fragments"))
+      summary["damage"]["fragments"] = find_fragments(*scene.families,
+                                                      scene.force->bond_list(),
+                                                      scene.nodes->spacing,
+                                                      total_damage(),
+                                                      parameters.cracks.damage);
   }
 
 #define PERIDEAL_INSTANTIATE(dim) template void Simulation<dim>::run_relaxation();

@@ -88,7 +88,7 @@ namespace perideal
                            const RelaxedStep            &result,
                            const DynamicRelaxation<dim> &relaxation);
     /// The tips of cracks, in the row of the history. Collective.
-    void record_crack_tips(const ExplicitDynamics<dim> &dynamics);
+    void record_crack_tips(const GlobalIndex n_broken, const double time);
     void make_relative_damping();
     void make_contact();
     /// Of explicit dynamics, with the scene's damping [s]. Collective.
