@@ -272,7 +272,8 @@ namespace perideal
     result["memory_bytes"]   = peak_memory_bytes(communicator);
     result["operator_bytes"] = dealii::Utilities::MPI::sum(
       scene.families->memory_consumption() +
-        (scene.force ? scene.force->memory_consumption() : scene.bonds->memory_consumption()),
+        (scene.force ? scene.force->memory_consumption() : scene.bonds->memory_consumption()) +
+        (scene.contact ? scene.contact->memory_consumption() : 0),
       communicator);
     result["ranks"] = dealii::Utilities::MPI::n_mpi_processes(communicator);
     write_summary(parameters.output_directory + "/summary.json", result, communicator);

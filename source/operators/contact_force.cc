@@ -3,6 +3,7 @@
 #include <perideal/nodes/curve_order.h>
 #include <perideal/operators/contact_force.h>
 
+#include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -328,6 +329,15 @@ namespace perideal
   double ContactForce<dim>::energy() const
   {
     return dealii::Utilities::MPI::sum(own_energy, families->communicator);
+  }
+
+  template <int dim>
+  std::size_t ContactForce<dim>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(spacing) + memory_consumption(stiffness) + memory_consumption(exposed) +
+           listed_at.capacity() * sizeof(listed_at[0]) + memory_consumption(found_node) +
+           (once_bonded.capacity() + strangers.capacity()) * sizeof(Pair);
   }
 
   template <int dim>

@@ -94,9 +94,12 @@ namespace perideal
     /// Of explicit dynamics, with the scene's damping [s]. Collective.
     double largest_stable_step() const;
     void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
-    /// @throws ComputationError on all ranks when the motion is not finite. Collective.
-    void check_finite_motion(const ExplicitDynamics<dim> &dynamics, const EnergyBudget &energy);
-    void store_motion(const ExplicitDynamics<dim> &dynamics);
+    /// @throws ComputationError on all ranks when the motion is not finite, or its energy comes from nowhere.
+    /// Collective.
+    void check_motion(const ExplicitDynamics<dim> &dynamics, const EnergyBudget &energy);
+    /// Number and place of the fastest node of all ranks. Collective.
+    std::string fastest_node(const ExplicitDynamics<dim> &dynamics) const;
+    void        store_motion(const ExplicitDynamics<dim> &dynamics);
     /// Share of the family behind broken bonds and precracks, by owned node.
     std::vector<double> total_damage() const;
     /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
@@ -117,6 +120,8 @@ namespace perideal
     NodalVector                displacement, external_force;
     /// Of dynamics or relaxation so far, which their drift is measured by [J].
     double largest_energy = 0;
+    /// Times in succession at which more than half of that was missing.
+    unsigned int rows_without_balance = 0;
     /// Of the field files so far [s].
     std::vector<double> frame_times;
     /// What this run goes on from, if it does.

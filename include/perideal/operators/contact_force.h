@@ -67,6 +67,8 @@ namespace perideal
     /// Collective.
     void add(NodalVector &force, const BondForce<dim> &bonds);
 
+    std::size_t memory_consumption() const;
+
     /// Makes its lists anew in the next add(), as a run does that goes on from here.
     void forget_lists() { has_lists = false; }
 
