@@ -96,6 +96,13 @@ def check(runs):
     runs.run("killed", overrides=frames + ["Checkpoints/Restart=true"])
     runs.expect_same_bits("killed", "whole")
 
+    # The same with weights that follow the broken bonds.
+    changing = frames + ["Material/Multipliers=recomputed"]
+    runs.run("changing whole", overrides=changing)
+    runs.stop("changing", signal.SIGKILL, 150, overrides=changing + ["Checkpoints/Steps=50"])
+    runs.run("changing", overrides=changing + ["Checkpoints/Restart=true"])
+    runs.expect_same_bits("changing", "changing whole")
+
     # Killed while it writes, again and again, at moments of chance.
     for step in (40, 110, 170, 230):
         restart = ["Checkpoints/Restart=true"] if step > 40 else []

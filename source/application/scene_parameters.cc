@@ -216,6 +216,8 @@ namespace perideal
       complain("Checkpoints/Steps");
     if (checkpoints.restart)
       complain("Checkpoints/Restart");
+    if (model.recomputes())
+      complain("Material/Multipliers");
   }
 
   void SceneParameters::check_relaxation() const

@@ -131,8 +131,15 @@ namespace perideal
       // What only the time step needed.
       scene.system.reset();
       scene.bonds.reset();
-      scene.weights.reset();
-      scene.families->release_members();
+      if (parameters.model.recomputes())
+        scene.force->reweigh_as_bonds_break(scene.weights, [&](const auto &nodes, const auto &is_gone) {
+          scene.weights->reweigh(nodes, *scene.model, moduli_of_model(), is_gone);
+        });
+      else
+        {
+          scene.weights.reset();
+          scene.families->release_members();
+        }
       for (LocalIndex i = 0; i < mass.size(); ++i)
         mass[i] = properties_of(scene.nodes->material[i]).density * scene.nodes->volume[i];
     }

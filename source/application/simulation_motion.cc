@@ -45,9 +45,9 @@ namespace perideal
       text << scene.nodes->first_global + node << " at (" << scene.nodes->position[node] << ")";
     const auto of_ranks =
       dealii::Utilities::MPI::all_gather(communicator, std::make_pair(fastest, text.str()));
-    return std::max_element(of_ranks.begin(), of_ranks.end(), [](const auto &a, const auto &b) {
-             return a.first < b.first;
-           })->second;
+    return std::max_element(
+             of_ranks.begin(), of_ranks.end(), [](const auto &a, const auto &b) { return a.first < b.first; })
+      ->second;
   }
 
   template <int dim>
@@ -175,7 +175,7 @@ namespace perideal
   template std::vector<double> Simulation<dim>::total_damage() const;                                        \
   template void                Simulation<dim>::record_dynamics(const ExplicitDynamics<dim> &);              \
   template void                Simulation<dim>::record_crack_tips(const GlobalIndex, const double);          \
-  template void                Simulation<dim>::write_frame(const unsigned int, const ExplicitDynamics<dim> &);
+  template void Simulation<dim>::write_frame(const unsigned int, const ExplicitDynamics<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

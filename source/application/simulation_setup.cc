@@ -93,13 +93,19 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::weigh_bonds()
+  std::function<Moduli(const dealii::types::material_id)> Simulation<dim>::moduli_of_model() const
   {
-    const Timings::Scope scope(timings, "setup");
-    const auto           moduli = [&](const dealii::types::material_id id) {
+    return [this](const dealii::types::material_id id) {
       const ElasticConstants constants = parameters.model.constants_of_model(scene.constants.at(id));
       return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
     };
+  }
+
+  template <int dim>
+  void Simulation<dim>::weigh_bonds()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const auto           moduli = moduli_of_model();
     if (parameters.model.is_consistent() || needs_gradient(parameters.field_names()))
       make_gradient();
     if (parameters.model.is_consistent())
@@ -116,13 +122,14 @@ namespace perideal
     else
       {
         const Timings::Scope part(timings, "setup: weights");
-        const auto           model = create_model<dim>(parameters.model, scene.mesh->thickness);
-        scene.weights              = perideal::weigh_bonds<dim>(scene.families,
-                                                   *model,
-                                                   moduli,
-                                                   parameters.model.after_the_cut() ? precrack_test() :
-                                                                                                   BondPredicate<dim>());
-        scene.bonds                = create_bond_operator<dim>(scene.weights);
+        scene.model = create_model<dim>(parameters.model, scene.mesh->thickness);
+        scene.weights =
+          perideal::weigh_bonds<dim>(scene.families,
+                                     *scene.model,
+                                     moduli,
+                                     parameters.model.after_the_cut() ? precrack_test() : nullptr,
+                                     parameters.model.recomputes());
+        scene.bonds = create_bond_operator<dim>(scene.weights);
       }
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
@@ -210,10 +217,11 @@ namespace perideal
   template void                      Simulation<dim>::make_mesh();                                           \
   template void                      Simulation<dim>::make_nodes_and_families();                             \
   template void                      Simulation<dim>::make_gradient();                                       \
-  template void                      Simulation<dim>::weigh_bonds();                                         \
-  template void                      Simulation<dim>::find_free_motions();                                   \
-  template void                      Simulation<dim>::prepare_comparisons();                                 \
-  template void                      Simulation<dim>::set_up_solver();
+  template std::function<Moduli(const dealii::types::material_id)> Simulation<dim>::moduli_of_model() const; \
+  template void                                                    Simulation<dim>::weigh_bonds();           \
+  template void                                                    Simulation<dim>::find_free_motions();     \
+  template void                                                    Simulation<dim>::prepare_comparisons();   \
+  template void                                                    Simulation<dim>::set_up_solver();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

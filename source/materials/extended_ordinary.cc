@@ -94,7 +94,8 @@ namespace perideal
     report.indefinite = any_negative(wd, spherical_deviatoric);
     if (negative == Negative::spherical)
       {
-        report.fallback = report.indefinite || any_negative(wh, spherical);
+        report.fallback = report.indefinite || any_negative(wh, spherical) ||
+                          std::max(missed_h, missed_d) > MomentConditions<dim, 4>::tolerance;
         if (report.fallback)
           {
             wh       = spherical;

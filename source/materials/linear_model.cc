@@ -6,12 +6,13 @@
 namespace perideal
 {
   template <int dim>
-  void
-  FamilyView<dim>::reinit(const Families<dim> &families, const LocalIndex i, const BondPredicate<dim> &is_cut)
+  void FamilyView<dim>::reinit(const Families<dim>                         &families,
+                               const LocalIndex                             i,
+                               const std::function<bool(const LocalIndex)> &is_gone)
   {
     member.clear();
     for (LocalIndex k = 0; k < families.size(i); ++k)
-      if (!is_cut || !is_cut(families.position[i], families.position[families.begin(i)[k]]))
+      if (!is_gone || !is_gone(families.begin(i)[k]))
         member.push_back(k);
     size        = static_cast<LocalIndex>(member.size());
     node_volume = families.volume[i];

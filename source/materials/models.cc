@@ -79,8 +79,9 @@ namespace perideal
       multipliers,
       "Multipliers of the extended ordinary model where precracks cut bonds: intact: those of "
       "the whole families; after the cut: those of what is left of them, with spherical "
-      "weights in families where any weight would be negative",
-      Selection("intact|after the cut"));
+      "weights in families where any weight would be negative; recomputed: the same again and again as "
+      "bonds break (energy form in dynamics; slower, and the energy is kept less well)",
+      Selection("intact|after the cut|recomputed"));
     prm.leave_subsection();
 
     prm.enter_subsection("Nodes");
@@ -105,6 +106,11 @@ namespace perideal
         .parameter("Material/Multipliers")
         .given(multipliers)
         .allowed("intact; or set Material/Model = extended ordinary with Form = energy | paper");
+    if (recomputes() && form != "energy")
+      throw InputError("weights that change as bonds break need a force that follows from an energy")
+        .parameter("Material/Multipliers")
+        .given(multipliers)
+        .allowed("intact | after the cut; or set Material/Form = energy");
     char        *end   = nullptr;
     const double value = std::strtod(stabilisation.c_str(), &end);
     if (stabilisation.empty() || *end != 0 || !(value > 0) || !std::isfinite(value))

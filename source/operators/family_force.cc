@@ -13,21 +13,10 @@ namespace perideal
   FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &weights)
     : families(weights.families)
     , bonds(weights.bonds)
-    , map(weights.map)
-    , stiffness(weights.stiffness.begin(), weights.stiffness.end())
-    , energy(weights.energy)
     , rest_length(bonds.n_slots(), 0.)
     , regions(*families, bonds, n_sums > 0)
   {
-    const auto copy = [](const auto &from, Sums &to) {
-      std::transform(from.begin(), from.end(), to.begin(), [](const auto &ends) {
-        return Ends{{ends.near.begin(), ends.near.end()}, {ends.far.begin(), ends.far.end()}};
-      });
-    };
-    copy(weights.sum_weight, sum_weight);
-    if (own_force_weights)
-      copy(weights.force_weight, force_weight);
-
+    take(weights);
     this->partitioner = families->make_partitioner(dim);
     ghosted.reinit(this->partitioner);
     if (n_sums > 0)
@@ -47,6 +36,22 @@ namespace perideal
         if (bonds.neighbour[slot] != i)
           lose(slot, i, family_volume);
     measure_rest_lengths();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::take(const Weights &weights)
+  {
+    const auto copy = [](const auto &from, Sums &to) {
+      std::transform(from.begin(), from.end(), to.begin(), [](const auto &ends) {
+        return Ends{{ends.near.begin(), ends.near.end()}, {ends.far.begin(), ends.far.end()}};
+      });
+    };
+    copy(weights.sum_weight, sum_weight);
+    if (own_force_weights)
+      copy(weights.force_weight, force_weight);
+    stiffness.assign(weights.stiffness.begin(), weights.stiffness.end());
+    map    = weights.map;
+    energy = weights.energy;
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

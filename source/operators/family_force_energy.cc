@@ -102,6 +102,9 @@ namespace perideal
   double FamilyForce<dim, n_sums, own_force_weights>::released_energy(const NodalVector &velocity,
                                                                       const double       time_step) const
   {
+    // The weights of bonds that hold have changed too: by whole evaluations.
+    if (reweigh)
+      return energy_before - strain_energy() - 0.5 * time_step * (velocity * force_change);
     const LocalIndex n_owned = families->n_owned();
     NodalVector      ghosted_velocity(this->partitioner);
     std::copy(velocity.begin(), velocity.end(), ghosted_velocity.begin());

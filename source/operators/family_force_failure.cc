@@ -137,6 +137,7 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyForce<dim, n_sums, own_force_weights>::restore_broken(const std::vector<BondEnds> &broken)
   {
+    const std::size_t first = this->lost.size();
     for (const BondEnds &ends : broken)
       {
         const BondIndex slot = bonds.find(ends.near, ends.far);
@@ -146,6 +147,8 @@ namespace perideal
         remove(slot);
         lose(slot, ends.near, broken_volume);
       }
+    if (reweigh)
+      reweigh_ends(first);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -159,6 +162,7 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                   \
+  template bool FamilyForce<dim, n_sums, own_force_weights>::carries_force(const BondIndex) const;             \
   template void FamilyForce<dim, n_sums, own_force_weights>::set_critical_stretch(                             \
     const BondForce<dim>::CriticalStretch &);                                                                  \
   template GlobalIndex FamilyForce<dim, n_sums, own_force_weights>::cut(const BondPredicate<dim> &);           \

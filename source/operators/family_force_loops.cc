@@ -174,19 +174,26 @@ namespace perideal
     broken_now.clear();
     import_positions(displacement);
     const bool can_break = judges_bonds && !critical_stretch.empty();
+    if (can_break && reweigh)
+      compute_and_reweigh(force);
+    else if (can_break)
+      compute_forces<true>(force);
+    else
+      compute_forces<false>(force);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::compute_forces(NodalVector &force)
+  {
     if constexpr (n_sums > 0)
       {
-        if (can_break)
-          sum_over_families<true>();
-        else
-          sum_over_families<false>();
+        sum_over_families<can_break>();
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
         sum_forces<false>();
       }
-    else if (can_break)
-      sum_forces<true>();
     else
-      sum_forces<false>();
+      sum_forces<can_break>();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = forces[i].value[d];
@@ -194,7 +201,9 @@ namespace perideal
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
   template void FamilyForce<dim, n_sums, own_force_weights>::measure_rest_lengths();                         \
-  template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<true>(NodalVector &);            \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<false>(NodalVector &);
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE
 } // namespace perideal

@@ -11,8 +11,10 @@ namespace perideal
     const std::shared_ptr<const Families<dim>>                    &families,
     LinearModel<dim>                                              &model,
     const std::function<Moduli(const dealii::types::material_id)> &moduli,
-    const BondPredicate<dim>                                      &is_cut)
+    const BondPredicate<dim>                                      &is_cut,
+    const bool                                                     will_change)
     : BondWeights<dim>(families, model)
+    , will_change(will_change)
   {
     weigh_families(model, moduli, is_cut);
   }
@@ -26,7 +28,8 @@ namespace perideal
     const Families<dim> &families = *this->families;
     const BondList      &bonds    = this->bonds;
     const BondIndex      n        = bonds.n_slots();
-    stiffness.assign(n, 0.);
+    end_stiffness.near.assign(n, 0.);
+    end_stiffness.far.assign(n, 0.);
     for (Sums *weights : {&sum_weight, &force_weight})
       if (weights == &sum_weight || own_force_weights)
         for (Ends &ends : *weights)
@@ -44,7 +47,11 @@ namespace perideal
     FamilyCoefficients           coefficients;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
-        view.reinit(families, i, is_cut);
+        view.reinit(families,
+                    i,
+                    is_cut ?
+                      [&](const LocalIndex j) { return is_cut(families.position[i], families.position[j]); } :
+                      std::function<bool(const LocalIndex)>());
         const Moduli material = moduli(families.material[i]);
         view.bulk_modulus     = material.bulk_modulus;
         view.shear_modulus    = material.shear_modulus;
@@ -54,10 +61,43 @@ namespace perideal
         store(i, coefficients, view.member, ends);
       }
 
+    join_ends();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::reweigh(
+    const std::vector<LocalIndex>                                 &nodes,
+    LinearModel<dim>                                              &model,
+    const typename BondWeights<dim>::ModuliOf                     &moduli,
+    const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone)
+  {
+    const Families<dim>         &families = *this->families;
+    std::vector<BondCursor::End> ends;
+    FamilyView<dim>              view;
+    FamilyCoefficients           coefficients;
+    for (const LocalIndex i : nodes)
+      {
+        view.reinit(families, i, [&](const LocalIndex j) { return is_gone(i, j); });
+        const Moduli material = moduli(families.material[i]);
+        view.bulk_modulus     = material.bulk_modulus;
+        view.shear_modulus    = material.shear_modulus;
+        coefficients.resize(view.size, model.shape());
+        model.compute(view, coefficients);
+        ends.clear();
+        for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+          ends.push_back({this->bonds.find(i, *j), i < *j});
+        store(i, coefficients, view.member, ends);
+      }
+    join_ends();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::join_ends()
+  {
+    const Families<dim> &families = *this->families;
     // The far ends of cut bonds, and the maps of ghosts, come from their owners.
-    std::vector<double>         far_stiffness(n, 0.);
-    std::vector<const double *> near = {stiffness.data()};
-    std::vector<double *>       far  = {far_stiffness.data()};
+    std::vector<const double *> near = {end_stiffness.near.data()};
+    std::vector<double *>       far  = {end_stiffness.far.data()};
     for (Sums *weights : {&sum_weight, &force_weight})
       if (weights == &sum_weight || own_force_weights)
         for (Ends &end_values : *weights)
@@ -65,13 +105,17 @@ namespace perideal
             near.push_back(end_values.near.data());
             far.push_back(end_values.far.data());
           }
-    exchange_cut_bonds(families, bonds, near, far);
-    for (BondIndex slot = 0; slot < n; ++slot)
-      stiffness[slot] += far_stiffness[slot];
+    exchange_cut_bonds(families, this->bonds, near, far);
+    stiffness.resize(this->bonds.n_slots());
+    for (BondIndex slot = 0; slot < stiffness.size(); ++slot)
+      stiffness[slot] = end_stiffness.near[slot] + end_stiffness.far[slot];
+    if (!will_change)
+      end_stiffness = Ends();
 
     if (n_sums > 0)
       import_maps();
 
+    this->counts = {};
     for (const FamilyReport &report : this->reports)
       {
         this->counts.fallback += report.fallback;
@@ -93,17 +137,21 @@ namespace perideal
       map.entries[i] = coefficients.map;
     if constexpr (own_force_weights)
       energy[i] = coefficients.energy;
-    for (std::size_t k = 0; k < member.size(); ++k)
+    const auto at = [](Ends &values, const BondCursor::End &end) -> double & {
+      return (end.is_near ? values.near : values.far)[end.slot];
+    };
+    std::size_t k = 0;
+    for (std::size_t m = 0; m < ends.size(); ++m)
       {
-        const BondCursor::End end = ends[member[k]];
-        stiffness[end.slot] += coefficients.stiffness[k];
+        const bool is_there        = k < member.size() && member[k] == m;
+        at(end_stiffness, ends[m]) = is_there ? coefficients.stiffness[k] : 0.;
         for (unsigned int a = 0; a < n_sums; ++a)
           {
-            (end.is_near ? sum_weight[a].near : sum_weight[a].far)[end.slot] = coefficients.sum[a][k];
+            at(sum_weight[a], ends[m]) = is_there ? coefficients.sum[a][k] : 0.;
             if constexpr (own_force_weights)
-              (end.is_near ? force_weight[a].near : force_weight[a].far)[end.slot] =
-                coefficients.force_weight[a][k];
+              at(force_weight[a], ends[m]) = is_there ? coefficients.force_weight[a][k] : 0.;
           }
+        k += is_there;
       }
   }
 
@@ -126,6 +174,7 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     std::size_t bytes = this->bonds.memory_consumption() + memory_consumption(stiffness) +
+                        memory_consumption(end_stiffness.near) + memory_consumption(end_stiffness.far) +
                         map.entries.size() * sizeof(map.entries[0]) + memory_consumption(energy);
     for (const Sums *weights : {&sum_weight, &force_weight})
       for (const Ends &ends : *weights)
@@ -138,12 +187,14 @@ namespace perideal
   weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
               LinearModel<dim>                                              &model,
               const std::function<Moduli(const dealii::types::material_id)> &moduli,
-              const BondPredicate<dim>                                      &is_cut)
+              const BondPredicate<dim>                                      &is_cut,
+              const bool                                                     will_change)
   {
-    return visit_family_shape(
-      model.shape(), [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
-        return std::make_shared<FamilyWeights<dim, n_sums, own>>(families, model, moduli, is_cut);
-      });
+    return visit_family_shape(model.shape(),
+                              [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
+                                return std::make_shared<FamilyWeights<dim, n_sums, own>>(
+                                  families, model, moduli, is_cut, will_change);
+                              });
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
@@ -156,7 +207,8 @@ namespace perideal
     const std::shared_ptr<const Families<dim>> &,                                                            \
     LinearModel<dim> &,                                                                                      \
     const std::function<Moduli(const dealii::types::material_id)> &,                                         \
-    const BondPredicate<dim> &);
+    const BondPredicate<dim> &,                                                                              \
+    const bool);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -60,6 +60,7 @@ namespace perideal
     std::shared_ptr<Families<dim>>           families;
 
     /// What the model made of the bonds; the consistent form has no such.
+    std::unique_ptr<LinearModel<dim>>  model;
     std::shared_ptr<BondWeights<dim>>  weights;
     std::shared_ptr<BondOperator<dim>> bonds;
     /// What became of the families, of all ranks and by owned node.

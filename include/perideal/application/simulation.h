@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,18 +52,19 @@ namespace perideal
     void check();
 
   private:
-    void make_mesh();
-    void make_nodes_and_families();
-    void find_free_motions();
-    void prepare_comparisons();
-    void make_gradient();
-    void weigh_bonds();
-    void set_up_solver();
-    void apply_loads(const double time);
-    void check_loads();
-    void step(const unsigned int number);
-    void solve_equilibrium(const double time);
-    void store_displacement();
+    void                                                    make_mesh();
+    void                                                    make_nodes_and_families();
+    void                                                    find_free_motions();
+    void                                                    prepare_comparisons();
+    void                                                    make_gradient();
+    std::function<Moduli(const dealii::types::material_id)> moduli_of_model() const;
+    void                                                    weigh_bonds();
+    void                                                    set_up_solver();
+    void                                                    apply_loads(const double time);
+    void                                                    check_loads();
+    void                                                    step(const unsigned int number);
+    void                                                    solve_equilibrium(const double time);
+    void                                                    store_displacement();
     void record_step(const unsigned int number, const double time);
     void write_fields(const unsigned int number, const double time);
     void compare_at_end(const double time);

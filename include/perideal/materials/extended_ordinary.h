@@ -43,8 +43,8 @@ namespace perideal
     {
       /// What the form says.
       by_form,
-      /// Spherical weights in theta and force wherever any wh or wd is negative. Families
-      /// that a cut has made one-sided have many such, which would let deformation gain energy.
+      /// Spherical weights in theta and force wherever any wh or wd is negative or a condition is missed.
+      /// Families that a cut has made one-sided have many such, which would let deformation gain energy.
       spherical
     };
 

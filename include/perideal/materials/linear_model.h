@@ -46,10 +46,10 @@ namespace perideal
     double bulk_modulus = 0, shear_modulus = 0;
 
     /// Looks at the family of owned node @p i; the moduli are the caller's to set.
-    /// @param is_cut leaves out the members behind such bonds; empty: all are there
-    void reinit(const Families<dim>      &families,
-                const LocalIndex          i,
-                const BondPredicate<dim> &is_cut = BondPredicate<dim>());
+    /// @param is_gone leaves out such members; empty: all are there
+    void reinit(const Families<dim>                         &families,
+                const LocalIndex                             i,
+                const std::function<bool(const LocalIndex)> &is_gone = {});
   };
 
   /// How many sums over its family a model needs before it knows bond forces,

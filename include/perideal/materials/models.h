@@ -20,7 +20,8 @@ namespace perideal
     std::string form               = "automatic";
     std::string influence_function = "automatic";
     std::string stabilisation      = "automatic";
-    /// intact | after the cut: whether multipliers are those of families with the bonds that precracks cut.
+    /// intact | after the cut | recomputed: whether multipliers are those of families with the bonds that
+    /// precracks cut, and that broke.
     std::string multipliers = "intact";
 
     void declare(dealii::ParameterHandler &prm);
@@ -34,7 +35,8 @@ namespace perideal
     /// gradient of the mesh and is no LinearModel.
     bool is_consistent() const { return model == "extended ordinary" && form == "consistent"; }
 
-    bool after_the_cut() const { return multipliers == "after the cut"; }
+    bool after_the_cut() const { return multipliers != "intact"; }
+    bool recomputes() const { return multipliers == "recomputed"; }
 
     /// The constants that the model has where it cannot have those asked for: a
     /// bond-based body keeps Young's modulus, Poisson's ratio is its own.

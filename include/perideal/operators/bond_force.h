@@ -36,6 +36,17 @@ namespace perideal
     /// states which are no motion of the body lets it look at equilibrium only.
     virtual void judge_bonds(const bool judge) = 0;
 
+    /// Weighs the families of some owned nodes anew, of which bonds have broken. Collective.
+    using Reweigh =
+      std::function<void(const std::vector<LocalIndex>                                 &nodes,
+                         const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone)>;
+
+    /// From now on families that lose bonds are weighed anew. In steps in which bonds break, forces are
+    /// computed twice.
+    /// @param weights of this force, in which @p reweigh leaves the new ones
+    virtual void reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                        const Reweigh                                 &reweigh) = 0;
+
     /// Takes out bonds, apart from damage, those that were weighed as cut among them; to be called once,
     /// before anything breaks. Returns their number on all ranks. Collective.
     virtual GlobalIndex cut(const BondPredicate<dim> &is_cut) = 0;

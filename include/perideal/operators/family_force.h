@@ -29,6 +29,8 @@ namespace perideal
 
     void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
     void        judge_bonds(const bool judge) override { judges_bonds = judge; }
+    void        reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                       const typename BondForce<dim>::Reweigh        &reweigh) override;
     GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
     void        compute(NodalVector &force, const NodalVector &displacement) override;
     GlobalIndex n_broken_now() const override;
@@ -92,6 +94,18 @@ namespace perideal
 
     void measure_rest_lengths();
     void import_positions(const NodalVector &displacement);
+    /// Copies weights, which become single precision.
+    void take(const Weights &weights);
+    /// Sums and forces of the bonds there are; with can_break, those too long break before.
+    template <bool can_break>
+    void compute_forces(NodalVector &force);
+    /// As compute_forces<true>(), with families weighed anew where bonds break.
+    void compute_and_reweigh(NodalVector &force);
+    bool any_too_long() const;
+    /// Weighs the families of the owned ends of bonds anew.
+    /// @param first of the lost bonds
+    void reweigh_ends(const std::size_t first);
+
     /// The passes over all bonds; @p can_break: with the check of lengths.
     template <bool can_break>
     void sum_over_families();
@@ -136,6 +150,12 @@ namespace perideal
     std::vector<double> family_volume, broken_volume, cut_volume;
 
     std::vector<BrokenBond> broken_now;
+    /// Where families are weighed anew: how, what the breaking in the last compute() has added to the
+    /// forces, and the energy before.
+    typename BondForce<dim>::Reweigh reweigh;
+    std::shared_ptr<const Weights>   current_weights;
+    NodalVector                      force_change;
+    double                           energy_before = 0;
     /// Of the lost bonds, those that were cut at the beginning.
     std::size_t n_cut = 0;
 

@@ -30,6 +30,15 @@ namespace perideal
   public:
     virtual ~BondWeights() = default;
 
+    using ModuliOf = std::function<Moduli(const dealii::types::material_id)>;
+
+    /// Weighs the families of some owned nodes anew, without the bonds that are gone. Collective.
+    /// @param is_gone of bonds between an owned node and another local one
+    virtual void reweigh(const std::vector<LocalIndex>                                 &nodes,
+                         LinearModel<dim>                                              &model,
+                         const ModuliOf                                                &moduli,
+                         const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) = 0;
+
     virtual std::size_t memory_consumption() const = 0;
 
     std::shared_ptr<const Families<dim>> families;
@@ -81,7 +90,13 @@ namespace perideal
     FamilyWeights(const std::shared_ptr<const Families<dim>>                    &families,
                   LinearModel<dim>                                              &model,
                   const std::function<Moduli(const dealii::types::material_id)> &moduli,
-                  const BondPredicate<dim>                                      &is_cut);
+                  const BondPredicate<dim>                                      &is_cut,
+                  const bool                                                     will_change);
+
+    void reweigh(const std::vector<LocalIndex>                                 &nodes,
+                 LinearModel<dim>                                              &model,
+                 const typename BondWeights<dim>::ModuliOf                     &moduli,
+                 const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) override;
 
     std::size_t memory_consumption() const override;
 
@@ -109,7 +124,10 @@ namespace perideal
     /// Empty unless the shape has them.
     Sums                force_weight;
     std::vector<double> stiffness;
-    FamilyMaps<n_sums>  map;
+    /// What the families of either end add to the stiffness; kept where weights will change.
+    Ends               end_stiffness;
+    bool               will_change;
+    FamilyMaps<n_sums> map;
     /// Coefficients of the squared sum in the strain energy by owned node; only of
     /// models with own force weights.
     std::vector<double> energy;
@@ -118,6 +136,8 @@ namespace perideal
     void weigh_families(LinearModel<dim>                                              &model,
                         const std::function<Moduli(const dealii::types::material_id)> &moduli,
                         const BondPredicate<dim>                                      &is_cut);
+    /// What the families' owners made of far ends, and what follows from both ends. Collective.
+    void join_ends();
     void import_maps();
     /// @param member the ends of the bonds that the coefficients belong to
     void store(const LocalIndex                    i,
@@ -130,12 +150,14 @@ namespace perideal
   /// @param moduli by material id; every material of the nodes is listed.
   /// @param is_cut bonds that are there no more: they get no weights and the families are
   ///   weighed without them; empty: none
+  /// @param will_change whether there will be a reweigh()
   template <int dim>
   std::shared_ptr<BondWeights<dim>>
   weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
               LinearModel<dim>                                              &model,
               const std::function<Moduli(const dealii::types::material_id)> &moduli,
-              const BondPredicate<dim>                                      &is_cut = BondPredicate<dim>());
+              const BondPredicate<dim>                                      &is_cut = BondPredicate<dim>(),
+              const bool                                                     will_change = false);
 
   /// Calls a macro with every family shape there is: dim, n_sums, own_force_weights.
 #define PERIDEAL_FOR_FAMILY_SHAPES(CALL)                                                                     \
