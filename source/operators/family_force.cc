@@ -10,13 +10,13 @@
 namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &weights)
-    : families(weights.families)
-    , bonds(weights.bonds)
+  FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &from)
+    : families(from.families)
+    , bonds(from.bonds)
     , rest_length(bonds.n_slots(), 0.)
     , regions(*families, bonds, n_sums > 0)
   {
-    take(weights);
+    take(from);
     this->partitioner = families->make_partitioner(dim);
     ghosted.reinit(this->partitioner);
     if (n_sums > 0)
@@ -39,36 +39,23 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::take(const Weights &weights)
+  void FamilyForce<dim, n_sums, own_force_weights>::take(const Weights &from)
   {
-    const auto copy = [](const auto &from, Sums &to) {
-      std::transform(from.begin(), from.end(), to.begin(), [](const auto &ends) {
-        return Ends{{ends.near.begin(), ends.near.end()}, {ends.far.begin(), ends.far.end()}};
-      });
-    };
-    copy(weights.sum_weight, sum_weight);
-    if (own_force_weights)
-      copy(weights.force_weight, force_weight);
-    stiffness.assign(weights.stiffness.begin(), weights.stiffness.end());
-    map    = weights.map;
-    energy = weights.energy;
+    weights.copy_from(from);
+    map    = from.map;
+    energy = from.energy;
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
   std::size_t FamilyForce<dim, n_sums, own_force_weights>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    std::size_t bytes =
-      bonds.memory_consumption() + memory_consumption(stiffness) + memory_consumption(map.entries) +
-      memory_consumption(energy) + memory_consumption(rest_length) + memory_consumption(critical_stretch) +
-      regions.memory_consumption() + 3 * memory_consumption(family_volume) +
-      this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
-      2 * n_sums * families->n_local() * sizeof(double) + ghosted.memory_consumption() +
-      ghosted_states.memory_consumption();
-    for (const Sums *weights : {&sum_weight, &force_weight})
-      for (const Ends &ends : *weights)
-        bytes += memory_consumption(ends.near) + memory_consumption(ends.far);
-    return bytes;
+    return bonds.memory_consumption() + weights.weights_memory() + memory_consumption(map.entries) +
+           memory_consumption(energy) + memory_consumption(rest_length) +
+           memory_consumption(critical_stretch) + regions.memory_consumption() +
+           3 * memory_consumption(family_volume) + this->lost.capacity() * sizeof(this->lost[0]) +
+           2 * position.size() * sizeof(NodeRecord) + 2 * n_sums * families->n_local() * sizeof(double) +
+           ghosted.memory_consumption() + ghosted_states.memory_consumption();
   }
 
   template <int dim>

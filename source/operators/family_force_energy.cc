@@ -78,12 +78,12 @@ namespace perideal
           const LocalIndex j     = bonds.neighbour[slot];
           const double     eps   = motion(slot, i, j, at_rest).eps;
           const double     share = j < n_owned ? 1. : 0.5;
-          result += share * 0.5 * stiffness[slot] * eps * eps;
+          result += share * 0.5 * weights.stiffness[slot] * eps * eps;
           if constexpr (own_force_weights)
             {
-              force[i][0] += force_weight[0].near[slot] * eps;
+              force[i][0] += weights.force_weight[0].near[slot] * eps;
               if (j < n_owned)
-                force[j][0] += force_weight[0].far[slot] * eps;
+                force[j][0] += weights.force_weight[0].far[slot] * eps;
             }
         }
     for (LocalIndex i = 0; i < n_owned; ++i)
@@ -142,7 +142,7 @@ namespace perideal
             const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                const auto  &ends   = force_weights()[a];
+                const auto  &ends   = weights.force_weights()[a];
                 const double weight = (end.is_near ? ends.near : ends.far)[end.slot];
                 after.force[a] += weight * m.eps;
                 after.force_rate[a] += weight * m.rate;

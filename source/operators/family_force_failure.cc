@@ -18,21 +18,22 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   bool FamilyForce<dim, n_sums, own_force_weights>::carries_force(const BondIndex slot) const
   {
-    const auto at_ends = [&](const Sums &weights) {
-      return std::any_of(weights.begin(), weights.end(), [&](const Ends &ends) {
+    const auto at_ends = [&](const auto &sums) {
+      return std::any_of(sums.begin(), sums.end(), [&](const auto &ends) {
         return ends.near[slot] != 0 || ends.far[slot] != 0;
       });
     };
-    return stiffness[slot] != 0 || at_ends(sum_weight) || (own_force_weights && at_ends(force_weight));
+    return weights.stiffness[slot] != 0 || at_ends(weights.sum_weight) ||
+           (own_force_weights && at_ends(weights.force_weight));
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyForce<dim, n_sums, own_force_weights>::remove(const BondIndex slot)
   {
-    stiffness[slot] = 0;
-    for (Sums *weights : {&sum_weight, &force_weight})
-      if (weights == &sum_weight || own_force_weights)
-        for (Ends &ends : *weights)
+    weights.stiffness[slot] = 0;
+    for (auto *list : {&weights.sum_weight, &weights.force_weight})
+      if (list == &weights.sum_weight || own_force_weights)
+        for (auto &ends : *list)
           ends.near[slot] = ends.far[slot] = 0;
     if (!critical_stretch.empty())
       critical_stretch[slot] = never;
@@ -94,13 +95,13 @@ namespace perideal
         bond.slot      = slot;
         bond.near      = i;
         bond.far       = bonds.neighbour[slot];
-        bond.stiffness = stiffness[slot];
+        bond.stiffness = weights.stiffness[slot];
         for (unsigned int a = 0; a < n_sums; ++a)
           {
-            bond.near_sum[a]   = sum_weight[a].near[slot];
-            bond.far_sum[a]    = sum_weight[a].far[slot];
-            bond.near_force[a] = force_weights()[a].near[slot];
-            bond.far_force[a]  = force_weights()[a].far[slot];
+            bond.near_sum[a]   = weights.sum_weight[a].near[slot];
+            bond.far_sum[a]    = weights.sum_weight[a].far[slot];
+            bond.near_force[a] = weights.force_weights()[a].near[slot];
+            bond.far_force[a]  = weights.force_weights()[a].far[slot];
           }
         broken_now.push_back(bond);
         this->lost.push_back({slot, i, bond.far});

@@ -94,8 +94,8 @@ namespace perideal
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
-                load(near, sum_weight[a].near.data() + k);
-                load(far, sum_weight[a].far.data() + k);
+                load(near, weights.sum_weight[a].near.data() + k);
+                load(far, weights.sum_weight[a].far.data() + k);
                 own[a] += near * extension;
                 far *= extension;
                 double *sum = sums[a].data();
@@ -115,7 +115,7 @@ namespace perideal
     const LocalIndex *neighbour    = bonds.neighbour.data();
     const NodeRecord *y            = position.data();
     NodeRecord       *f            = forces.data();
-    const auto       &pull_weights = force_weights();
+    const auto       &pull_weights = weights.force_weights();
     const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
@@ -145,7 +145,7 @@ namespace perideal
                 if (__builtin_expect(any_negative(margin), false))
                   break_bonds(i, k, -margin);
               }
-            load(magnitude, stiffness.data() + k);
+            load(magnitude, weights.stiffness.data() + k);
             magnitude *= (length - rest) * rest;
             for (unsigned int a = 0; a < n_sums; ++a)
               {

@@ -173,13 +173,9 @@ namespace perideal
   std::size_t FamilyWeights<dim, n_sums, own_force_weights>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    std::size_t bytes = this->bonds.memory_consumption() + memory_consumption(stiffness) +
-                        memory_consumption(end_stiffness.near) + memory_consumption(end_stiffness.far) +
-                        map.entries.size() * sizeof(map.entries[0]) + memory_consumption(energy);
-    for (const Sums *weights : {&sum_weight, &force_weight})
-      for (const Ends &ends : *weights)
-        bytes += memory_consumption(ends.near) + memory_consumption(ends.far);
-    return bytes;
+    return this->bonds.memory_consumption() + this->weights_memory() +
+           memory_consumption(end_stiffness.near) + memory_consumption(end_stiffness.far) +
+           memory_consumption(map.entries) + memory_consumption(energy);
   }
 
   template <int dim>

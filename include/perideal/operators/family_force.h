@@ -71,20 +71,6 @@ namespace perideal
       States sum = {}, force = {}, force_rate = {};
     };
 
-    /// Values of the two ends of every bond, by slot.
-    struct Ends
-    {
-      std::vector<float> near, far;
-    };
-    using Sums = std::array<Ends, n_sums>;
-
-    const Sums &force_weights() const
-    {
-      if constexpr (own_force_weights)
-        return force_weight;
-      else
-        return sum_weight;
-    }
     /// False of padding, and of bonds that were cut or broke.
     bool carries_force(const BondIndex slot) const;
     /// The row that holds the slot.
@@ -133,13 +119,11 @@ namespace perideal
 
     std::vector<double> share_of_family(const std::vector<double> &volume) const;
 
-    std::shared_ptr<const Families<dim>> families;
-    BondList                             bonds;
-    FamilyMaps<n_sums>                   map;
-    /// As in FamilyWeights.
-    Sums                sum_weight, force_weight;
-    std::vector<float>  stiffness;
-    std::vector<double> energy;
+    std::shared_ptr<const Families<dim>>          families;
+    BondList                                      bonds;
+    FamilyMaps<n_sums>                            map;
+    SlotWeights<float, n_sums, own_force_weights> weights;
+    std::vector<double>                           energy;
 
     /// Lengths at rest by slot [m].
     std::vector<double> rest_length;

@@ -7,6 +7,9 @@
 #include <perideal/neighbourhood/bond_list.h>
 #include <perideal/neighbourhood/families.h>
 
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -78,12 +81,62 @@ namespace perideal
     std::vector<std::array<double, 3>> entries;
   };
 
+  /// Weights of every bond, by slot: of each end for each sum, and one stiffness.
+  template <typename Number, unsigned int n_sums, bool own_force_weights>
+  struct SlotWeights
+  {
+    /// Values of the two ends of every bond.
+    struct Ends
+    {
+      std::vector<Number> near, far;
+    };
+    using Sums = std::array<Ends, n_sums>;
+
+    const Sums &force_weights() const
+    {
+      if constexpr (own_force_weights)
+        return force_weight;
+      else
+        return sum_weight;
+    }
+
+    /// Takes the weights of another precision.
+    template <typename Other>
+    void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other)
+    {
+      const auto copy = [](const auto &from, Sums &to) {
+        std::transform(from.begin(), from.end(), to.begin(), [](const auto &ends) {
+          return Ends{{ends.near.begin(), ends.near.end()}, {ends.far.begin(), ends.far.end()}};
+        });
+      };
+      copy(other.sum_weight, sum_weight);
+      if (own_force_weights)
+        copy(other.force_weight, force_weight);
+      stiffness.assign(other.stiffness.begin(), other.stiffness.end());
+    }
+
+    std::size_t weights_memory() const
+    {
+      using dealii::MemoryConsumption::memory_consumption;
+      std::size_t bytes = memory_consumption(stiffness);
+      for (const Sums *weights : {&sum_weight, &force_weight})
+        for (const Ends &ends : *weights)
+          bytes += memory_consumption(ends.near) + memory_consumption(ends.far);
+      return bytes;
+    }
+
+    Sums sum_weight;
+    /// Empty unless the shape has them.
+    Sums                force_weight;
+    std::vector<Number> stiffness;
+  };
+
   /**
    * The weights of models of one family shape: of each bond, for each sum, the
    * weight of either end, and one stiffness.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  class FamilyWeights : public BondWeights<dim>
+  class FamilyWeights : public BondWeights<dim>, public SlotWeights<double, n_sums, own_force_weights>
   {
   public:
     /// Weighs every family. Collective.
@@ -100,30 +153,19 @@ namespace perideal
 
     std::size_t memory_consumption() const override;
 
-    /// Values of the two ends of every bond, by slot.
-    struct Ends
-    {
-      std::vector<double> near, far;
-    };
-    using Sums = std::array<Ends, n_sums>;
-
-    const Sums &force_weights() const
-    {
-      if constexpr (own_force_weights)
-        return force_weight;
-      else
-        return sum_weight;
-    }
+    using Slots = SlotWeights<double, n_sums, own_force_weights>;
+    using Slots::force_weight;
+    using Slots::force_weights;
+    using Slots::stiffness;
+    using Slots::sum_weight;
+    using typename Slots::Ends;
+    using typename Slots::Sums;
 
     std::array<double, n_sums> states(const LocalIndex i, const std::array<double, n_sums> &s) const
     {
       return map.states(i, s);
     }
 
-    Sums sum_weight;
-    /// Empty unless the shape has them.
-    Sums                force_weight;
-    std::vector<double> stiffness;
     /// What the families of either end add to the stiffness; kept where weights will change.
     Ends               end_stiffness;
     bool               will_change;
