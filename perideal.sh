@@ -71,7 +71,7 @@ install_packages()
 n_jobs()
 {
   local cores by_memory
-  cores=$(nproc)
+  cores=$(env -u OMP_NUM_THREADS nproc) # which else would be what OpenMP may take
   by_memory=$(awk '/^MemAvailable:/ { print int($2 / 2000000) }' /proc/meminfo 2>/dev/null || true)
   if [[ -n $by_memory && $by_memory -lt $cores ]]; then
     cores=$((by_memory > 0 ? by_memory : 1))
@@ -106,7 +106,7 @@ case ${1:-help} in
   test)
     shift
     build_target all
-    ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(nproc)" "$@"
+    ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(env -u OMP_NUM_THREADS nproc)" "$@"
     ;;
   install-packages)
     install_packages
