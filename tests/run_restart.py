@@ -140,7 +140,7 @@ def check(runs):
     for name in ("checkpoint_0.h5", "checkpoint_1.h5"):
         path = runs.directory / "asked" / name
         if path.exists():
-            path.write_bytes(path.read_bytes()[:100].replace(b"HDF", b"XXX"))
+            path.write_bytes(path.read_bytes()[:100].replace(b"HDF", b"???"))
     text = runs.run("asked", overrides=short, status=1)
     if "cannot be read" not in text:
         raise Failure(f"a damaged checkpoint is not told\n{text}")

@@ -52,18 +52,9 @@ namespace perideal
     prepare_comparisons();
     weigh_bonds();
     set_up_solver();
-    screen << banner(parameters, scene) << std::flush;
-    for (const std::string &warning : warnings(parameters, scene))
-      screen << "warning     " << warning << std::endl;
-
+    announce();
     check_loads();
-
-    history      = std::make_unique<History>(parameters.output_directory, communicator);
-    field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
-                                                      *scene.nodes,
-                                                      parameters.output_directory,
-                                                      parameters.solver.load_steps > 1 ? OutputSteps::series :
-                                                                                         OutputSteps::single);
+    open_outputs();
     try
       {
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
@@ -75,6 +66,28 @@ namespace perideal
         throw;
       }
     finish("done");
+  }
+
+  template <int dim>
+  void Simulation<dim>::announce(const std::string &more)
+  {
+    screen << banner(parameters, scene) << more << std::flush;
+    for (const std::string &warning : warnings(parameters, scene))
+      screen << "warning     " << warning << std::endl;
+  }
+
+  template <int dim>
+  void Simulation<dim>::open_outputs()
+  {
+    const bool is_series = parameters.solver.is_dynamic() || parameters.solver.load_steps > 1;
+    history =
+      std::make_unique<History>(parameters.output_directory,
+                                communicator,
+                                resumed ? resumed->header.at("step").template get<double>() - 0.5 : -1.);
+    field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
+                                                      *scene.nodes,
+                                                      parameters.output_directory,
+                                                      is_series ? OutputSteps::series : OutputSteps::single);
   }
 
   template <int dim>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/application/advice.h>
-#include <perideal/application/output_fields.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -145,18 +143,10 @@ namespace perideal
     }
     const bool verlet         = parameters.solver.integrator == "velocity verlet";
     summary["solver"]["name"] = "explicit dynamics, " + parameters.solver.integrator;
-    screen << banner(parameters, scene) << "time        " << short_number(parameters.solver.end_time)
-           << " s in " << std::lround(parameters.solver.end_time / time_step) << " steps of "
-           << short_number(time_step) << " s, " << parameters.solver.integrator << std::endl;
-    for (const std::string &warning : warnings(parameters, scene))
-      screen << "warning     " << warning << std::endl;
-
-    history =
-      std::make_unique<History>(parameters.output_directory,
-                                communicator,
-                                resumed ? resumed->header.at("step").template get<double>() - 0.5 : -1.);
-    field_output = std::make_unique<FieldOutput<dim>>(
-      *scene.mesh, *scene.nodes, parameters.output_directory, OutputSteps::series);
+    announce("time        " + short_number(parameters.solver.end_time) + " s in " +
+             std::to_string(std::lround(parameters.solver.end_time / time_step)) + " steps of " +
+             short_number(time_step) + " s, " + parameters.solver.integrator + "\n");
+    open_outputs();
 
     ExplicitDynamics<dim> dynamics(*scene.force,
                                    scene.held,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/application/advice.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -55,17 +54,9 @@ namespace perideal
       make_cracks_and_limits();
     }
     summary["solver"]["name"] = "dynamic relaxation";
-    screen << banner(parameters, scene) << std::flush;
-    for (const std::string &warning : warnings(parameters, scene))
-      screen << "warning     " << warning << std::endl;
+    announce();
     check_loads();
-
-    history      = std::make_unique<History>(parameters.output_directory, communicator);
-    field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
-                                                      *scene.nodes,
-                                                      parameters.output_directory,
-                                                      parameters.solver.load_steps > 1 ? OutputSteps::series :
-                                                                                         OutputSteps::single);
+    open_outputs();
     if (scene.crack_tracker)
       scene.crack_tracker->start(scene.force->cut_share());
     try

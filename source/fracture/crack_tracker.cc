@@ -3,7 +3,7 @@
 #include <perideal/fracture/crack_branching.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/output/files.h>
-#include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/mpi.h>
@@ -32,11 +32,7 @@ namespace perideal
                       damage,
                       "Share of broken bonds from which on a node belongs to a crack, 0 < share < 1 [-]",
                       Double());
-    for (const std::string &name : file.subsections("Cracks"))
-      {
-        cracks.emplace_back();
-        cracks.back().name = name;
-      }
+    cracks = named_texts<CrackText>(file, "Cracks");
     for (CrackText &crack : cracks)
       {
         prm.enter_subsection(crack.name);

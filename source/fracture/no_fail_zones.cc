@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/fracture/no_fail_zones.h>
-#include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,11 +15,7 @@ namespace perideal
   {
     using dealii::Patterns::Double;
     prm.enter_subsection("No-fail zones");
-    for (const std::string &name : file.subsections("No-fail zones"))
-      {
-        zones.emplace_back();
-        zones.back().name = name;
-      }
+    zones = named_texts<NoFailZoneText>(file, "No-fail zones");
     for (NoFailZoneText &zone : zones)
       {
         prm.enter_subsection(zone.name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/neighbourhood/precrack.h>
-#include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/utilities.h>
@@ -71,11 +71,7 @@ namespace perideal
   void PrecrackParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     prm.enter_subsection("Precracks");
-    for (const std::string &name : file.subsections("Precracks"))
-      {
-        cracks.emplace_back();
-        cracks.back().name = name;
-      }
+    cracks = named_texts<PrecrackText>(file, "Precracks");
     for (PrecrackText &crack : cracks)
       {
         prm.enter_subsection(crack.name);

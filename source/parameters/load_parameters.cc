@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/utilities.h>
@@ -124,12 +124,7 @@ namespace perideal
       "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "
       "the solution whose mean translation and rotation are zero (the loads must balance)",
       dealii::Patterns::Selection("error|remove"));
-    for (const std::string &name : file.subsections("Boundary conditions"))
-      {
-        conditions.emplace_back();
-        conditions.back().name = name;
-      }
-    // References into the vector stay valid from here on.
+    conditions = named_texts<BoundaryConditionText>(file, "Boundary conditions");
     for (BoundaryConditionText &condition : conditions)
       {
         prm.enter_subsection(condition.name);
@@ -157,11 +152,7 @@ namespace perideal
     prm.leave_subsection();
 
     prm.enter_subsection("Point loads");
-    for (const std::string &name : file.subsections("Point loads"))
-      {
-        point_loads.emplace_back();
-        point_loads.back().name = name;
-      }
+    point_loads = named_texts<PointLoadText>(file, "Point loads");
     for (PointLoadText &load : point_loads)
       {
         prm.enter_subsection(load.name);

@@ -52,66 +52,79 @@ namespace perideal
     void check();
 
   private:
-    void                                                    make_mesh();
-    void                                                    make_nodes_and_families();
-    void                                                    find_free_motions();
-    void                                                    prepare_comparisons();
-    void                                                    make_gradient();
+    // Set-up.
+    void make_mesh();
+    void make_nodes_and_families();
+    void find_free_motions();
+    void prepare_comparisons();
+    void make_gradient();
+    void weigh_bonds();
+    void set_up_solver();
+
+    /// Whether prescribed displacements hold nodes, and not images or faces.
+    bool by_nodes() const;
+    /// The material of a cell group.
+    const MaterialProperties &properties_of(const dealii::types::material_id id) const;
+    /// Bulk and shear modulus by cell group, as the model takes them.
     std::function<Moduli(const dealii::types::material_id)> moduli_of_model() const;
-    void                                                    weigh_bonds();
-    void                                                    set_up_solver();
-    void                                                    apply_loads(const double time);
-    void                                                    check_loads();
-    void                                                    step(const unsigned int number);
-    void                                                    solve_equilibrium(const double time);
-    void                                                    store_displacement();
+
+    /// Banner, more lines of it, and warnings.
+    void announce(const std::string &more = std::string());
+    /// History and fields, those of the run that this one goes on from included.
+    void open_outputs();
+    void finish(const std::string &status);
+
+    // Statics.
+    void apply_loads(const double time);
+    void check_loads();
+    void step(const unsigned int number);
+    void solve_equilibrium(const double time);
+    void store_displacement();
     void record_step(const unsigned int number, const double time);
     void write_fields(const unsigned int number, const double time);
     void compare_at_end(const double time);
-    void finish(const std::string &status);
 
-    void   run_dynamics();
-    void   prepare_dynamics();
-    void   prepare_cracks();
-    double choose_time_step();
-    void   make_cracks_and_limits();
+    // Failure, of relaxation and dynamics.
+    void prepare_cracks();
+    void make_cracks_and_limits();
     /// Whether precracks cut a bond; empty where there are none.
     BondPredicate<dim> precrack_test() const;
-    /// False when the program was asked to stop.
-    bool run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
-    void record_dynamics(const ExplicitDynamics<dim> &dynamics);
-    void save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step);
-    /// Reads the last checkpoint and holds its scene against this one.
-    void open_checkpoint();
-    void resume(ExplicitDynamics<dim> &dynamics);
+    /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
+    double critical_stretch(const dealii::types::material_id id, const double horizon) const;
+    /// Share of the family behind broken bonds and precracks, by owned node.
+    std::vector<double> total_damage() const;
+    /// The tips of cracks, in the row of the history. Collective.
+    void record_crack_tips(const GlobalIndex n_broken, const double time);
+
+    // Relaxation.
     void run_relaxation();
     void relax_step(const unsigned int number, DynamicRelaxation<dim> &relaxation);
     void record_relaxation(const unsigned int            number,
                            const RelaxedStep            &result,
                            const DynamicRelaxation<dim> &relaxation);
-    /// The tips of cracks, in the row of the history. Collective.
-    void record_crack_tips(const GlobalIndex n_broken, const double time);
-    void make_relative_damping();
-    void make_contact();
+
+    // Dynamics.
+    void   run_dynamics();
+    void   prepare_dynamics();
+    void   make_relative_damping();
+    void   make_contact();
+    double choose_time_step();
     /// Of explicit dynamics, with the scene's damping [s]. Collective.
     double largest_stable_step() const;
-    void   write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    /// False when the program was asked to stop.
+    bool run_steps(ExplicitDynamics<dim> &dynamics, const double time_step);
+    void record_dynamics(const ExplicitDynamics<dim> &dynamics);
+    void write_frame(const unsigned int number, const ExplicitDynamics<dim> &dynamics);
+    void store_motion(const ExplicitDynamics<dim> &dynamics);
     /// @throws ComputationError on all ranks when the motion is not finite, or its energy comes from nowhere.
     /// Collective.
     void check_motion(const ExplicitDynamics<dim> &dynamics, const EnergyBudget &energy);
     /// Number and place of the fastest node of all ranks. Collective.
     std::string fastest_node(const ExplicitDynamics<dim> &dynamics) const;
-    void        store_motion(const ExplicitDynamics<dim> &dynamics);
-    /// Share of the family behind broken bonds and precracks, by owned node.
-    std::vector<double> total_damage() const;
-    /// Critical stretch of a material at a horizon [-]; infinity: unbreakable.
-    double critical_stretch(const dealii::types::material_id id, const double horizon) const;
-
-    /// Whether prescribed displacements hold nodes, and not images or faces.
-    bool by_nodes() const;
-
-    /// The material of a cell group.
-    const MaterialProperties &properties_of(const dealii::types::material_id id) const;
+    void        save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step);
+    /// Reads the last checkpoint and holds its scene against this one.
+    void open_checkpoint();
+    void resume(ExplicitDynamics<dim> &dynamics);
 
     const SceneParameters     &parameters;
     const RunContext           context;
