@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_parameters_elastic_solid_h
+#define perideal_parameters_elastic_solid_h
+
+#include <perideal/parameters/elastic_constants.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace perideal
+{
+  /**
+   * A linear elastic material of any symmetry, sigma_ij = C_ijkl eps_kl, in the problem's own
+   * dimension: of a two-dimensional body C is what the plane assumption leaves of the solid's.
+   */
+  template <int dim>
+  class ElasticSolid
+  {
+  public:
+    ElasticSolid() = default;
+
+    /// An isotropic solid.
+    ElasticSolid(const ElasticConstants &constants);
+
+    /// Any solid, by its stiffness in space [Pa], which is reduced to the plane in 2-D: plane strain
+    /// takes the entries in the plane, plane stress takes out the three stresses across it.
+    ElasticSolid(const dealii::SymmetricTensor<4, 3> &in_space, const PlaneAssumption assumption);
+
+    /// C [Pa], in the problem's own dimension.
+    const dealii::SymmetricTensor<4, dim> &stiffness() const { return tensor; }
+
+    /// C of the solid in space [Pa].
+    const dealii::SymmetricTensor<4, 3> &stiffness_in_space() const { return solid; }
+
+    bool is_isotropic() const { return has_no_direction; }
+
+    /// The constants; of an anisotropic solid those of the isotropic one that is nearest in the sense of
+    /// Voigt's mean: equal stress traces under expansion and equal mean of the deviatoric stiffness.
+    const ElasticConstants &isotropic() const { return constants; }
+
+    PlaneAssumption assumption() const { return constants.assumption; }
+
+  private:
+    ElasticConstants                constants;
+    dealii::SymmetricTensor<4, 3>   solid;
+    dealii::SymmetricTensor<4, dim> tensor;
+    bool                            has_no_direction = true;
+  };
+} // namespace perideal
+
+#endif
