@@ -143,9 +143,9 @@ namespace perideal
 
   void SceneParameters::resolve()
   {
-    if (model.form == "automatic")
-      model.form = solver.is_dynamic() || solver.is_relaxation() ? "energy" : "consistent";
-    model.resolve(dimension);
+    model.resolve(dimension,
+                  solver.is_dynamic() || solver.is_relaxation() ? ModelParameters::Use::motion :
+                                                                  ModelParameters::Use::statics);
     if (solver.is_dynamic())
       check_dynamics();
     else if (solver.is_relaxation())
@@ -179,11 +179,11 @@ namespace perideal
 
   void SceneParameters::check_dynamics() const
   {
-    if (model.is_consistent())
-      throw InputError("the consistent form is one of statics")
+    if (model.is_linear_only())
+      throw InputError("this form is one of linear statics")
         .parameter("Material/Form")
         .given(model.form)
-        .allowed("automatic | energy | paper in dynamics");
+        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamics");
     const std::string &treatment = loads.displacement_treatment;
     if (treatment != "automatic" && treatment != "layer")
       throw InputError("dynamics hold the nodes at a boundary")
@@ -222,11 +222,11 @@ namespace perideal
 
   void SceneParameters::check_relaxation() const
   {
-    if (model.is_consistent())
-      throw InputError("the consistent form is one of linear statics")
+    if (model.is_linear_only())
+      throw InputError("this form is one of linear statics")
         .parameter("Material/Form")
         .given(model.form)
-        .allowed("automatic | energy | paper in dynamic relaxation");
+        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamic relaxation");
     const std::string &treatment = loads.displacement_treatment;
     if (treatment != "automatic" && treatment != "layer")
       throw InputError("dynamic relaxation holds the nodes at a boundary")

@@ -26,8 +26,13 @@ namespace perideal
     if (material.critical_stretch > 0)
       return material.critical_stretch;
     if (material.fracture_energy > 0)
-      return ordinary_critical_stretch(
-        parameters.model.constants_of_model(scene.constants.at(id)), material.fracture_energy, horizon);
+      {
+        const auto formula = parameters.model.stretch_formula == "tensor involved" ?
+                               tensor_critical_stretch :
+                               ordinary_critical_stretch;
+        return formula(
+          parameters.model.constants_of_model(scene.constants.at(id)), material.fracture_energy, horizon);
+      }
     return std::numeric_limits<double>::infinity();
   }
 
@@ -131,7 +136,7 @@ namespace perideal
       scene.bonds.reset();
       if (parameters.model.recomputes())
         scene.force->reweigh_as_bonds_break(scene.weights, [&](const auto &nodes, const auto &is_gone) {
-          scene.weights->reweigh(nodes, *scene.model, moduli_of_model(), is_gone);
+          scene.weights->reweigh(nodes, *scene.model, solid_of_model(), is_gone);
         });
       else
         {

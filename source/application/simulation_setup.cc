@@ -5,6 +5,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/parent_mesh.h>
+#include <perideal/operators/surface_cure.h>
 #include <perideal/solvers/preconditioner_choice.h>
 
 #include <deal.II/base/mpi.h>
@@ -93,11 +94,10 @@ namespace perideal
   }
 
   template <int dim>
-  std::function<Moduli(const dealii::types::material_id)> Simulation<dim>::moduli_of_model() const
+  SolidOf<dim> Simulation<dim>::solid_of_model() const
   {
     return [this](const dealii::types::material_id id) {
-      const ElasticConstants constants = parameters.model.constants_of_model(scene.constants.at(id));
-      return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
+      return ElasticSolid<dim>(parameters.model.constants_of_model(scene.constants.at(id)));
     };
   }
 
@@ -105,8 +105,8 @@ namespace perideal
   void Simulation<dim>::weigh_bonds()
   {
     const Timings::Scope scope(timings, "setup");
-    const auto           moduli = moduli_of_model();
-    if (parameters.model.is_consistent() || needs_gradient(parameters.field_names()))
+    const auto           solid_of = solid_of_model();
+    if (parameters.model.is_linear_only() || needs_gradient(parameters.field_names()))
       make_gradient();
     if (parameters.model.is_consistent())
       {
@@ -116,7 +116,7 @@ namespace perideal
           scene.gradient,
           scene.face_values,
           create_consistent<dim>(parameters.model, parameters.nodes.horizon_factor),
-          moduli);
+          solid_of);
         scene.bonds = scene.consistent;
       }
     else
@@ -126,10 +126,13 @@ namespace perideal
         scene.weights =
           perideal::weigh_bonds<dim>(scene.families,
                                      *scene.model,
-                                     moduli,
+                                     solid_of,
                                      parameters.model.after_the_cut() ? precrack_test() : nullptr,
                                      parameters.model.recomputes());
         scene.bonds = create_bond_operator<dim>(scene.weights);
+        if (parameters.model.has_surface_cure())
+          scene.bonds =
+            std::make_shared<SurfaceCure<dim>>(scene.bonds, scene.gradient, scene.nodes->volume, solid_of);
       }
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
@@ -217,11 +220,11 @@ namespace perideal
   template void                      Simulation<dim>::make_mesh();                                           \
   template void                      Simulation<dim>::make_nodes_and_families();                             \
   template void                      Simulation<dim>::make_gradient();                                       \
-  template std::function<Moduli(const dealii::types::material_id)> Simulation<dim>::moduli_of_model() const; \
-  template void                                                    Simulation<dim>::weigh_bonds();           \
-  template void                                                    Simulation<dim>::find_free_motions();     \
-  template void                                                    Simulation<dim>::prepare_comparisons();   \
-  template void                                                    Simulation<dim>::set_up_solver();
+  template SolidOf<dim>              Simulation<dim>::solid_of_model() const;                                \
+  template void                      Simulation<dim>::weigh_bonds();                                         \
+  template void                      Simulation<dim>::find_free_motions();                                   \
+  template void                      Simulation<dim>::prepare_comparisons();                                 \
+  template void                      Simulation<dim>::set_up_solver();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -18,4 +18,15 @@ namespace perideal
                                6. * mu / PI + 16. / (9. * PI * PI) * (kappa - 2. * mu);
     return std::sqrt(fracture_energy / (stiffness * horizon));
   }
+
+  double tensor_critical_stretch(const ElasticConstants &constants,
+                                 const double            fracture_energy,
+                                 const double            horizon)
+  {
+    using dealii::numbers::PI;
+    const int    dim = constants.assumption == PlaneAssumption::solid ? 3 : 2;
+    const double resistance =
+      ((dim + 1) * constants.lame_lambda() + (dim + 3) * constants.shear_modulus()) / (dim + 2);
+    return std::sqrt((dim == 3 ? 2. : PI) * fracture_energy / (3. * resistance * horizon));
+  }
 } // namespace perideal

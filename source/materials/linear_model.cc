@@ -34,6 +34,14 @@ namespace perideal
       }
   }
 
+  template <int dim>
+  void FamilyView<dim>::set_solid(const ElasticSolid<dim> &solid)
+  {
+    bulk_modulus  = solid.isotropic().bulk_modulus();
+    shear_modulus = solid.isotropic().shear_modulus();
+    stiffness     = solid.stiffness();
+  }
+
   void FamilyCoefficients::resize(const LocalIndex n, const FamilyShape &shape)
   {
     for (unsigned int a = 0; a < shape.n_sums; ++a)
@@ -42,7 +50,9 @@ namespace perideal
         if (shape.own_force_weights)
           force_weight[a].resize(n);
       }
-    stiffness.resize(n);
+    for (auto &component : tensor)
+      component.resize(shape.bond_tensors ? n : 0);
+    stiffness.resize(shape.bond_tensors ? 0 : n);
     energy = 0;
     report = {};
   }

@@ -6,7 +6,9 @@
 #include <perideal/materials/influence_function.h>
 #include <perideal/materials/models.h>
 #include <perideal/materials/ordinary.h>
+#include <perideal/materials/tensor_involved.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -39,6 +41,12 @@ namespace perideal
                                                            p.after_the_cut() ?
                                                              ExtendedOrdinary<dim>::Negative::spherical :
                                                              ExtendedOrdinary<dim>::Negative::by_form);
+          }},
+         {"tensor involved",
+          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+            using Moments = typename TensorInvolved<dim>::Moments;
+            return std::make_unique<TensorInvolved<dim>>(
+              p.form == "one point" ? Moments::sphere : Moments::family, thickness);
           }}});
       return list;
     }
@@ -60,16 +68,23 @@ namespace perideal
                       model,
                       "What a bond does: bond based: springs, whose Poisson's ratio is 1/4 (plane stress "
                       "1/3); ordinary: state-based peridynamics without corrections; extended "
-                      "ordinary: with multipliers that make families of any shape exact for uniform strain",
+                      "ordinary: with multipliers that make families of any shape exact for uniform strain; "
+                      "tensor involved: springs with tensors for stiffness, for solids of any symmetry",
                       Selection(selection(models<2>().names())));
-    prm.add_parameter(
-      "Form",
-      form,
-      "Force of the extended ordinary model: automatic: consistent in statics, energy in dynamics; "
-      "consistent: strain from the faces of the mesh, bonds "
-      "stabilise, symmetric, the most accurate in statics; energy: the gradient of the strain energy "
-      "over bonds, symmetric; paper: as published, not the gradient of an energy, non-symmetric",
-      Selection("automatic|consistent|" + selection(ExtendedOrdinary<2>::form_names())));
+    prm.add_parameter("Form",
+                      form,
+                      "Force of the extended ordinary and the tensor involved model: automatic: consistent "
+                      "in statics, energy "
+                      "or moment corrected in dynamics; consistent: strain from the faces of the mesh, bonds "
+                      "stabilise, symmetric, the most accurate in statics. Extended ordinary: energy: the "
+                      "gradient of the strain "
+                      "energy over bonds, symmetric; paper: as published, not the gradient of an energy, "
+                      "non-symmetric. Tensor "
+                      "involved: one point: as published, made for full spheres; moment corrected: made for "
+                      "each family as its "
+                      "nodes stand; surface cure: that, with what bonds lack at free surfaces, in statics",
+                      Selection("automatic|consistent|" + selection(ExtendedOrdinary<2>::form_names()) + "|" +
+                                selection(TensorInvolved<2>::form_names())));
     prm.add_parameter("Stabilisation",
                       stabilisation,
                       "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
@@ -82,6 +97,12 @@ namespace perideal
       "weights in families where any weight would be negative; recomputed: the same again and again as "
       "bonds break (energy form in dynamics; slower, and the energy is kept less well)",
       Selection("intact|after the cut|recomputed"));
+    prm.add_parameter(
+      "Stretch formula",
+      stretch_formula,
+      "Critical stretch that a fracture energy means: automatic: the model's own; ordinary: that of "
+      "state-based bonds; tensor involved: that of bonds with tensors, for that model",
+      Selection("automatic|ordinary|tensor involved"));
     prm.leave_subsection();
 
     prm.enter_subsection("Nodes");
@@ -94,8 +115,24 @@ namespace perideal
     prm.leave_subsection();
   }
 
-  void ModelParameters::resolve(const int dimension)
+  void ModelParameters::resolve(const int dimension, const Use use)
   {
+    if (form == "automatic")
+      form = use == Use::statics ? "consistent" : is_tensor_involved() ? "moment corrected" : "energy";
+    const auto own =
+      is_tensor_involved() ? TensorInvolved<2>::form_names() : ExtendedOrdinary<2>::form_names();
+    if (has_forms() && form != "consistent" && std::count(own.begin(), own.end(), form) == 0)
+      throw InputError("this is no form of the model")
+        .parameter("Material/Form")
+        .given(form)
+        .allowed("automatic | consistent | " + join_choices(own) + " for Model = " + model);
+    if (stretch_formula == "automatic")
+      stretch_formula = is_tensor_involved() ? "tensor involved" : "ordinary";
+    if (stretch_formula == "tensor involved" && !is_tensor_involved())
+      throw InputError("the bonds of this model have no tensors")
+        .parameter("Material/Stretch formula")
+        .given(stretch_formula)
+        .allowed("automatic | ordinary for Model = " + model);
     if (influence_function == "automatic")
       influence_function = is_consistent() ? Consistent<2>::best_influence : "constant";
     if (stabilisation == "automatic")
@@ -118,6 +155,12 @@ namespace perideal
         .parameter("Material/Stabilisation")
         .given(stabilisation)
         .allowed("automatic, or a number > 0; without it the consistent form has modes without energy");
+  }
+
+  std::vector<std::string> ModelParameters::forms_of_motion() const
+  {
+    return is_tensor_involved() ? std::vector<std::string>{"one point", "moment corrected"} :
+                                  ExtendedOrdinary<2>::form_names();
   }
 
   ElasticConstants ModelParameters::constants_of_model(const ElasticConstants &constants) const

@@ -12,12 +12,11 @@
 namespace perideal
 {
   template <int dim>
-  ConsistentOperator<dim>::ConsistentOperator(
-    const std::shared_ptr<const Families<dim>>                    &families,
-    const std::shared_ptr<const FaceGradient<dim>>                &gradient,
-    const std::shared_ptr<const FaceValues<dim>>                  &prescribed,
-    const Consistent<dim>                                         &model,
-    const std::function<Moduli(const dealii::types::material_id)> &moduli)
+  ConsistentOperator<dim>::ConsistentOperator(const std::shared_ptr<const Families<dim>>     &families,
+                                              const std::shared_ptr<const FaceGradient<dim>> &gradient,
+                                              const std::shared_ptr<const FaceValues<dim>>   &prescribed,
+                                              const Consistent<dim>                          &model,
+                                              const SolidOf<dim>                             &solid_of)
     : families(families)
     , gradient(gradient)
     , prescribed(prescribed)
@@ -25,7 +24,8 @@ namespace perideal
     , bonds(*families)
   {
     number_nodes();
-    weigh_bonds(moduli);
+    set_solids(solid_of);
+    weigh_bonds(solid_of);
     for (std::size_t e = 0; e < prescribed->entries().size(); ++e)
       {
         const LocalIndex node  = gradient->boundary_points()[prescribed->entries()[e].point].node;
@@ -111,14 +111,18 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  ConsistentOperator<dim>::weigh_bonds(const std::function<Moduli(const dealii::types::material_id)> &moduli)
+  void ConsistentOperator<dim>::weigh_bonds(const SolidOf<dim> &solid_of)
   {
     stiffness.near.assign(bonds.n_slots(), 0.);
     stiffness.far.assign(bonds.n_slots(), 0.);
-    std::vector<double> shear_modulus;
+    std::map<dealii::types::material_id, double> shear_modulus_of;
+    std::vector<double>                          shear_modulus;
     for (const auto id : families->material)
-      shear_modulus.push_back(moduli(id).shear_modulus);
+      {
+        if (shear_modulus_of.count(id) == 0)
+          shear_modulus_of[id] = solid_of(id).isotropic().shear_modulus();
+        shear_modulus.push_back(shear_modulus_of[id]);
+      }
     for (LocalIndex i = 0; i < n_owned; ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
@@ -134,8 +138,31 @@ namespace perideal
         }
     for (LocalIndex &j : bonds.neighbour)
       j = node_of_member[j];
+  }
+
+  template <int dim>
+  void ConsistentOperator<dim>::set_solids(const SolidOf<dim> &solid_of)
+  {
+    std::map<dealii::types::material_id, LocalIndex> number;
     for (LocalIndex i = 0; i < n_owned; ++i)
-      material.push_back(moduli(families->material[i]));
+      {
+        const auto inserted = number.insert({families->material[i], solids.size()});
+        if (inserted.second)
+          {
+            const ElasticSolid<dim> from = solid_of(families->material[i]);
+            Solid                   solid;
+            solid.shear_modulus = from.isotropic().shear_modulus();
+            for (unsigned int p = 0; p < n_pairs; ++p)
+              for (unsigned int q = 0; q < n_pairs; ++q)
+                {
+                  const auto [a, b]     = pair_axes(p);
+                  const auto [c, d]     = pair_axes(q);
+                  solid.stiffness[p][q] = from.stiffness()[a][b][c][d];
+                }
+            solids.push_back(solid);
+          }
+        solid_of_node.push_back(inserted.first->second);
+      }
   }
 
   template <int dim>
@@ -179,7 +206,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(stiffness.near) +
            memory_consumption(stiffness.far) + memory_consumption(node_of_member) +
-           memory_consumption(global_number) + material.size() * sizeof(Moduli) +
+           memory_consumption(global_number) + memory_consumption(solid_of_node) +
            n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) + gradient->memory_consumption();
   }
 

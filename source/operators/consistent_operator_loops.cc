@@ -170,14 +170,15 @@ namespace perideal
   {
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
-        const double volume = families->volume[i], mu = material[i].shear_modulus;
-        double       dilatation = 0;
-        for (unsigned int d = 0; d < dim; ++d)
-          dilatation += pair(strains[i], d);
-        const double pressure = volume * (material[i].bulk_modulus - 2. * mu / dim) * dilatation;
-        for (unsigned int k = 0; k < n_pairs; ++k)
-          pair(stresses[i], k) +=
-            k < dim ? pressure + 2. * mu * volume * pair(strains[i], k) : mu * volume * pair(strains[i], k);
+        const auto  &stiffness = solids[solid_of_node[i]].stiffness;
+        const double volume    = families->volume[i];
+        for (unsigned int p = 0; p < n_pairs; ++p)
+          {
+            double stress = 0;
+            for (unsigned int q = 0; q < n_pairs; ++q)
+              stress += stiffness[p][q] * pair(strains[i], q);
+            pair(stresses[i], p) += volume * stress;
+          }
       }
   }
 

@@ -50,14 +50,10 @@ namespace perideal
   std::array<typename ConsistentOperator<dim>::Pairs, ConsistentOperator<dim>::n_pairs>
   ConsistentOperator<dim>::elasticity(const LocalIndex i) const
   {
-    std::array<Pairs, n_pairs> result = {};
-    const double               mu     = families->volume[i] * material[i].shear_modulus;
-    const double               lambda = families->volume[i] * material[i].bulk_modulus - 2. * mu / dim;
-    for (unsigned int p = 0; p < n_pairs; ++p)
-      result[p][p] = p < dim ? 2. * mu : mu;
-    for (unsigned int p = 0; p < dim; ++p)
-      for (unsigned int q = 0; q < dim; ++q)
-        result[p][q] += lambda;
+    std::array<Pairs, n_pairs> result = solids[solid_of_node[i]].stiffness;
+    for (Pairs &row : result)
+      for (double &entry : row)
+        entry *= families->volume[i];
     return result;
   }
 
@@ -69,11 +65,12 @@ namespace perideal
       if (families->material[*m] == families->material[i])
         {
           const auto bond = families->position[*m] - families->position[i];
-          visit(
-            node_of_member[*m],
-            bond,
-            model.bond_stiffness(
-              bond.norm_square(), distance_square(i, bond), families->volume[*m], material[i].shear_modulus));
+          visit(node_of_member[*m],
+                bond,
+                model.bond_stiffness(bond.norm_square(),
+                                     distance_square(i, bond),
+                                     families->volume[*m],
+                                     solids[solid_of_node[i]].shear_modulus));
         }
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/family_force.h>
+#include <perideal/operators/tensor_force.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -11,31 +12,16 @@ namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
   FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &from)
-    : families(from.families)
-    , bonds(from.bonds)
-    , rest_length(bonds.n_slots(), 0.)
-    , regions(*families, bonds, n_sums > 0)
+    : BreakingBonds<dim>(from, n_sums > 0)
   {
     take(from);
-    this->partitioner = families->make_partitioner(dim);
-    ghosted.reinit(this->partitioner);
     if (n_sums > 0)
       ghosted_states.reinit(families->make_partitioner(n_sums));
-    position.resize(families->n_local(), NodeRecord{});
-    forces.resize(families->n_local(), NodeRecord{});
     for (unsigned int a = 0; a < n_sums; ++a)
       {
         sums[a].resize(families->n_local());
         state[a].resize(families->n_local());
       }
-
-    family_volume.assign(families->n_owned(), 0.);
-    broken_volume = cut_volume = family_volume;
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (bonds.neighbour[slot] != i)
-          lose(slot, i, family_volume);
-    measure_rest_lengths();
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -50,17 +36,16 @@ namespace perideal
   std::size_t FamilyForce<dim, n_sums, own_force_weights>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return bonds.memory_consumption() + weights.weights_memory() + memory_consumption(map.entries) +
-           memory_consumption(energy) + memory_consumption(rest_length) +
-           memory_consumption(critical_stretch) + regions.memory_consumption() +
-           3 * memory_consumption(family_volume) + this->lost.capacity() * sizeof(this->lost[0]) +
-           2 * position.size() * sizeof(NodeRecord) + 2 * n_sums * families->n_local() * sizeof(double) +
-           ghosted.memory_consumption() + ghosted_states.memory_consumption();
+    return this->breaking_memory() + weights.weights_memory() + memory_consumption(map.entries) +
+           memory_consumption(energy) + 2 * n_sums * families->n_local() * sizeof(double) +
+           ghosted_states.memory_consumption();
   }
 
   template <int dim>
   std::unique_ptr<BondForce<dim>> create_bond_force(const BondWeights<dim> &weights)
   {
+    if (weights.shape.bond_tensors)
+      return std::make_unique<TensorForce<dim>>(static_cast<const TensorWeights<dim> &>(weights));
     return visit_family_shape(weights.shape,
                               [&](const auto n_sums, const auto own) -> std::unique_ptr<BondForce<dim>> {
                                 return std::make_unique<FamilyForce<dim, n_sums, own>>(

@@ -9,53 +9,6 @@
 namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::import_positions(const NodalVector &displacement)
-  {
-    const NodalVector *source = &displacement;
-    if (families->n_local() > families->n_owned())
-      {
-        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
-        ghosted.update_ghost_values();
-        source = &ghosted;
-      }
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        position[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
-    // A displacement that rounding takes from the position has moved nothing.
-    regions.update([&](const LocalIndex i) {
-      for (int d = 0; d < dim; ++d)
-        if (position[i].value[d] != families->position[i][d])
-          return true;
-      return false;
-    });
-    ghosted.zero_out_ghost_values();
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::measure_rest_lengths()
-  {
-    // Operation by operation as in the loops below: a body at rest has no extension, not even by rounding.
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        position[i].value[d] = families->position[i][d];
-    const NodeRecord *y = position.data();
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
-        {
-          const LocalIndex *j       = bonds.neighbour.data() + k;
-          const Lanes       yi      = lanes(y[i]);
-          const Lanes       bond[4] = {
-                  lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
-          Lanes square;
-          sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
-          const Lanes length = square_root(square);
-          for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
-            // Padding has a length too: none that it could exceed.
-            rest_length[k + lane] = j[lane] == i ? 1. : length[lane];
-        }
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
   template <bool can_break>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families()
   {
@@ -172,11 +125,10 @@ namespace perideal
                                                             const NodalVector &displacement)
   {
     broken_now.clear();
-    import_positions(displacement);
-    const bool can_break = judges_bonds && !critical_stretch.empty();
-    if (can_break && reweigh)
+    this->move_nodes(displacement);
+    if (this->can_break() && reweigh)
       compute_and_reweigh(force);
-    else if (can_break)
+    else if (this->can_break())
       compute_forces<true>(force);
     else
       compute_forces<false>(force);
@@ -200,7 +152,6 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
-  template void FamilyForce<dim, n_sums, own_force_weights>::measure_rest_lengths();                         \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<true>(NodalVector &);            \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<false>(NodalVector &);

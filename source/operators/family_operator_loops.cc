@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/family_operator.h>
 #include <perideal/operators/family_states.h>
+#include <perideal/operators/nodal_records.h>
 
 #include <algorithm>
 
@@ -12,17 +13,7 @@ namespace perideal
   void
   FamilyOperator<dim, n_sums, own_force_weights>::import_displacement(const NodalVector &displacement) const
   {
-    const NodalVector *source = &displacement;
-    if (families->n_local() > families->n_owned())
-      {
-        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
-        ghosted.update_ghost_values();
-        source = &ghosted;
-      }
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        displacements[i].value[d] = source->local_element(dim * i + d);
-    ghosted.zero_out_ghost_values();
+    import_nodal_records<dim>(displacement, ghosted, displacements);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

@@ -1,33 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/family_weights.h>
+#include <perideal/operators/tensor_weights.h>
 
 #include <deal.II/base/memory_consumption.h>
-#include <deal.II/base/mpi.h>
 
 namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
   FamilyWeights<dim, n_sums, own_force_weights>::FamilyWeights(
-    const std::shared_ptr<const Families<dim>>                    &families,
-    LinearModel<dim>                                              &model,
-    const std::function<Moduli(const dealii::types::material_id)> &moduli,
-    const BondPredicate<dim>                                      &is_cut,
-    const bool                                                     will_change)
+    const std::shared_ptr<const Families<dim>> &families,
+    LinearModel<dim>                           &model,
+    const SolidOf<dim>                         &solid_of,
+    const BondPredicate<dim>                   &is_cut,
+    const bool                                  will_change)
     : BondWeights<dim>(families, model)
     , will_change(will_change)
   {
-    weigh_families(model, moduli, is_cut);
+    weigh_families(model, solid_of, is_cut);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(
-    LinearModel<dim>                                              &model,
-    const std::function<Moduli(const dealii::types::material_id)> &moduli,
-    const BondPredicate<dim>                                      &is_cut)
+  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(LinearModel<dim>         &model,
+                                                                     const SolidOf<dim>       &solid_of,
+                                                                     const BondPredicate<dim> &is_cut)
   {
     const Families<dim> &families = *this->families;
-    const BondList      &bonds    = this->bonds;
-    const BondIndex      n        = bonds.n_slots();
+    const BondIndex      n        = this->bonds.n_slots();
     end_stiffness.near.assign(n, 0.);
     end_stiffness.far.assign(n, 0.);
     for (Sums *weights : {&sum_weight, &force_weight})
@@ -39,28 +37,15 @@ namespace perideal
           }
     map.entries.resize(n_sums > 0 ? families.n_local() : 0);
     energy.assign(own_force_weights ? families.n_owned() : 0, 0.);
-    this->reports.resize(families.n_owned());
 
-    BondCursor                   cursor(bonds);
-    std::vector<BondCursor::End> ends;
-    FamilyView<dim>              view;
-    FamilyCoefficients           coefficients;
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      {
-        view.reinit(families,
-                    i,
-                    is_cut ?
-                      [&](const LocalIndex j) { return is_cut(families.position[i], families.position[j]); } :
-                      std::function<bool(const LocalIndex)>());
-        const Moduli material = moduli(families.material[i]);
-        view.bulk_modulus     = material.bulk_modulus;
-        view.shear_modulus    = material.shear_modulus;
-        coefficients.resize(view.size, model.shape());
-        model.compute(view, coefficients);
-        cursor.find(i, families.begin(i), families.end(i), ends);
-        store(i, coefficients, view.member, ends);
-      }
-
+    this->visit_families(
+      model,
+      solid_of,
+      is_cut,
+      [this](const LocalIndex                    i,
+             const FamilyCoefficients           &coefficients,
+             const std::vector<LocalIndex>      &member,
+             const std::vector<BondCursor::End> &ends) { store(i, coefficients, member, ends); });
     join_ends();
   }
 
@@ -68,7 +53,7 @@ namespace perideal
   void FamilyWeights<dim, n_sums, own_force_weights>::reweigh(
     const std::vector<LocalIndex>                                 &nodes,
     LinearModel<dim>                                              &model,
-    const typename BondWeights<dim>::ModuliOf                     &moduli,
+    const SolidOf<dim>                                            &solid_of,
     const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone)
   {
     const Families<dim>         &families = *this->families;
@@ -78,9 +63,7 @@ namespace perideal
     for (const LocalIndex i : nodes)
       {
         view.reinit(families, i, [&](const LocalIndex j) { return is_gone(i, j); });
-        const Moduli material = moduli(families.material[i]);
-        view.bulk_modulus     = material.bulk_modulus;
-        view.shear_modulus    = material.shear_modulus;
+        view.set_solid(solid_of(families.material[i]));
         coefficients.resize(view.size, model.shape());
         model.compute(view, coefficients);
         ends.clear();
@@ -115,15 +98,7 @@ namespace perideal
     if (n_sums > 0)
       import_maps();
 
-    this->counts = {};
-    for (const FamilyReport &report : this->reports)
-      {
-        this->counts.fallback += report.fallback;
-        this->counts.singular += report.singular;
-        this->counts.indefinite += report.indefinite;
-      }
-    for (GlobalIndex *count : {&this->counts.fallback, &this->counts.singular, &this->counts.indefinite})
-      *count = dealii::Utilities::MPI::sum(*count, families.communicator);
+    this->count_reports();
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -179,17 +154,18 @@ namespace perideal
   }
 
   template <int dim>
-  std::shared_ptr<BondWeights<dim>>
-  weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
-              LinearModel<dim>                                              &model,
-              const std::function<Moduli(const dealii::types::material_id)> &moduli,
-              const BondPredicate<dim>                                      &is_cut,
-              const bool                                                     will_change)
+  std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &families,
+                                                LinearModel<dim>                           &model,
+                                                const SolidOf<dim>                         &solid_of,
+                                                const BondPredicate<dim>                   &is_cut,
+                                                const bool                                  will_change)
   {
+    if (model.shape().bond_tensors)
+      return std::make_shared<TensorWeights<dim>>(families, model, solid_of, is_cut);
     return visit_family_shape(model.shape(),
                               [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
                                 return std::make_shared<FamilyWeights<dim, n_sums, own>>(
-                                  families, model, moduli, is_cut, will_change);
+                                  families, model, solid_of, is_cut, will_change);
                               });
   }
 
@@ -199,12 +175,11 @@ namespace perideal
 #undef PERIDEAL_INSTANTIATE
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::shared_ptr<BondWeights<dim>> weigh_bonds(                                                    \
-    const std::shared_ptr<const Families<dim>> &,                                                            \
-    LinearModel<dim> &,                                                                                      \
-    const std::function<Moduli(const dealii::types::material_id)> &,                                         \
-    const BondPredicate<dim> &,                                                                              \
-    const bool);
+  template std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &,       \
+                                                         LinearModel<dim> &,                                 \
+                                                         const SolidOf<dim> &,                               \
+                                                         const BondPredicate<dim> &,                         \
+                                                         const bool);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -12,8 +12,8 @@ namespace perideal
     template <int dim>
     SymmetricTensor<4, dim> isotropic_stiffness(const double lambda, const double mu)
     {
-      return lambda * outer_product(dealii::unit_symmetric_tensor<dim>(),
-                                    dealii::unit_symmetric_tensor<dim>()) +
+      return lambda *
+               outer_product(dealii::unit_symmetric_tensor<dim>(), dealii::unit_symmetric_tensor<dim>()) +
              2. * mu * dealii::identity_tensor<dim>();
     }
 
@@ -69,16 +69,6 @@ namespace perideal
           }
       return result;
     }
-
-    /// E and nu whose bulk and shear modulus in the problem's dimension are these.
-    ElasticConstants
-    constants_of(const double kappa, const double mu, const PlaneAssumption assumption, const int dim)
-    {
-      const double lambda = kappa - 2. * mu / dim;
-      const double nu =
-        assumption == PlaneAssumption::plane_stress ? lambda / (lambda + 2. * mu) : lambda / (2. * (lambda + mu));
-      return {2. * mu * (1. + nu), nu, assumption};
-    }
   } // namespace
 
   template <int dim>
@@ -98,12 +88,13 @@ namespace perideal
     if constexpr (dim == 3)
       tensor = in_space;
     else
-      tensor = assumption == PlaneAssumption::plane_stress ? without_stress_across(in_space) : in_plane(in_space);
+      tensor =
+        assumption == PlaneAssumption::plane_stress ? without_stress_across(in_space) : in_plane(in_space);
     // kappa = C_aabb/dim^2 and 2 mu = (C_abab - C_aabb/dim)/(dim(dim+1)/2 - 1).
     const auto   trace = traces(tensor);
     const double kappa = trace[0] / (dim * dim);
     const double mu    = (trace[1] - trace[0] / dim) / (dim * (dim + 1) - 2);
-    constants          = constants_of(kappa, mu, assumption, dim);
+    constants = ElasticConstants::of_moduli(kappa, mu, dim == 3 ? PlaneAssumption::solid : assumption);
     has_no_direction =
       (tensor - isotropic_stiffness<dim>(constants.lame_lambda(), constants.shear_modulus())).norm() <
       1e-12 * tensor.norm();

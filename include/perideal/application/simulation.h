@@ -66,7 +66,7 @@ namespace perideal
     /// The material of a cell group.
     const MaterialProperties &properties_of(const dealii::types::material_id id) const;
     /// Bulk and shear modulus by cell group, as the model takes them.
-    std::function<Moduli(const dealii::types::material_id)> moduli_of_model() const;
+    SolidOf<dim> solid_of_model() const;
 
     /// Banner, more lines of it, and warnings.
     void announce(const std::string &more = std::string());

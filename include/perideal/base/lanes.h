@@ -55,6 +55,19 @@ namespace perideal
     result = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
   }
 
+  /// The i-th entries of a[0] to a[3] in the i-th result.
+  PERIDEAL_INLINE void transpose(const Lanes (&a)[4], Lanes (&result)[4])
+  {
+    const Lanes even01 = __builtin_shufflevector(a[0], a[1], 0, 4, 2, 6);
+    const Lanes odd01  = __builtin_shufflevector(a[0], a[1], 1, 5, 3, 7);
+    const Lanes even23 = __builtin_shufflevector(a[2], a[3], 0, 4, 2, 6);
+    const Lanes odd23  = __builtin_shufflevector(a[2], a[3], 1, 5, 3, 7);
+    result[0]          = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
+    result[1]          = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+    result[2]          = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
+    result[3]          = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+  }
+
   PERIDEAL_INLINE Lanes square_root(const Lanes &a)
   {
 #ifdef __AVX__

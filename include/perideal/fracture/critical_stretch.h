@@ -21,6 +21,22 @@ namespace perideal
   double ordinary_critical_stretch(const ElasticConstants &constants,
                                    const double            fracture_energy,
                                    const double            horizon);
+
+  /**
+   * The same for tensor-involved bonds (TIPD eqs. 41 and 54, and for any symmetry):
+   *
+   *     3-D: s0^2 = 2 G0 / (3 B horizon),   2-D: s0^2 = pi G0 / (3 B horizon),
+   *     B = ((dim+1) lambda + (dim+3) mu)/(dim+2),
+   *
+   * B being what a full sphere of bonds resists a stretch with, on the mean over the directions. That depends
+   * on the traces of the stiffness only, which the nearest isotropic solid has in common with an anisotropic
+   * one; there, a crack takes more than G0 across stiff directions and less across soft ones.
+   *
+   * @param constants of the nearest isotropic solid
+   */
+  double tensor_critical_stretch(const ElasticConstants &constants,
+                                 const double            fracture_energy,
+                                 const double            horizon);
 } // namespace perideal
 
 #endif

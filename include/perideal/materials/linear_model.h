@@ -3,6 +3,9 @@
 #define perideal_materials_linear_model_h
 
 #include <perideal/neighbourhood/families.h>
+#include <perideal/parameters/elastic_solid.h>
+
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
 #include <functional>
@@ -11,11 +14,9 @@
 
 namespace perideal
 {
-  /// Bulk and shear modulus [Pa].
-  struct Moduli
-  {
-    double bulk_modulus = 0, shear_modulus = 0;
-  };
+  /// The solid of a material id.
+  template <int dim>
+  using SolidOf = std::function<ElasticSolid<dim>(const dealii::types::material_id)>;
 
   /// Whether something is true of the bond between two positions, in either order.
   template <int dim>
@@ -44,20 +45,27 @@ namespace perideal
     double node_volume = 0, horizon = 0;
     /// The node's bulk modulus (of the problem's dimension) and shear modulus [Pa].
     double bulk_modulus = 0, shear_modulus = 0;
+    /// The node's stiffness C [Pa]; of use to models for solids of any symmetry.
+    dealii::SymmetricTensor<4, dim> stiffness;
 
-    /// Looks at the family of owned node @p i; the moduli are the caller's to set.
+    /// Looks at the family of owned node @p i; the solid is the caller's to set.
     /// @param is_gone leaves out such members; empty: all are there
     void reinit(const Families<dim>                         &families,
                 const LocalIndex                             i,
                 const std::function<bool(const LocalIndex)> &is_gone = {});
+
+    /// What the node is made of.
+    void set_solid(const ElasticSolid<dim> &solid);
   };
 
   /// How many sums over its family a model needs before it knows bond forces,
-  /// and whether its forces are weighted as its sums are.
+  /// and whether its forces are weighted as its sums are; or whether its bonds have
+  /// tensors for stiffness, which need no sums.
   struct FamilyShape
   {
     unsigned int n_sums            = 0;
     bool         own_force_weights = false;
+    bool         bond_tensors      = false;
   };
 
   /// What became of a family's weights.
@@ -82,12 +90,16 @@ namespace perideal
    *     F = ( sum_a weight[a]_j A_a + stiffness_j eps_j ) xi_j.
    *
    * weight is force_weight where the shape has own force weights, else sum.
+   *
+   * With bond tensors, F = tensor_j (u_j - u_i) instead.
    */
   struct FamilyCoefficients
   {
     std::array<std::vector<double>, 2> sum;
     std::array<std::vector<double>, 2> force_weight;
     std::vector<double>                stiffness;
+    /// Components of the bonds' tensors [N/m], ordered as in dealii::SymmetricTensor.
+    std::array<std::vector<double>, 6> tensor;
     /// Entries (0,0), (0,1) = (1,0), (1,1) of the map.
     std::array<double, 3> map = {};
     /// c of the strain energy, [J]: half the sum of stiffness_j eps_j^2 and, without own

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace perideal
 {
@@ -24,16 +25,39 @@ namespace perideal
     /// precracks cut, and that broke.
     std::string multipliers = "intact";
 
+    /// ordinary | tensor involved: whose critical stretch a fracture energy means.
+    std::string stretch_formula = "automatic";
+
     void declare(dealii::ParameterHandler &prm);
 
-    /// Puts what serves the model best in the place of "automatic".
-    /// @throws InputError on a stabilisation that is not a positive number, on multipliers of a model
-    /// without.
-    void resolve(const int dimension);
+    /// Whether bonds break and move, or are those of linear statics.
+    enum class Use
+    {
+      statics,
+      motion
+    };
 
-    /// The consistent form of the extended ordinary model, which needs the face
-    /// gradient of the mesh and is no LinearModel.
-    bool is_consistent() const { return model == "extended ordinary" && form == "consistent"; }
+    /// Puts what serves the model best in the place of "automatic".
+    /// @throws InputError on a stabilisation that is not a positive number, on a form or multipliers of a
+    /// model without.
+    void resolve(const int dimension, const Use use = Use::statics);
+
+    /// The consistent form, which needs the face gradient of the mesh and is no LinearModel.
+    bool is_consistent() const { return has_forms() && form == "consistent"; }
+
+    /// Bonds for solids of any symmetry.
+    bool is_tensor_involved() const { return model == "tensor involved"; }
+
+    /// Bonds with what they lack at surfaces, by the face gradient.
+    bool has_surface_cure() const { return is_tensor_involved() && form == "surface cure"; }
+
+    /// Forms of the model whose bonds can break and move.
+    std::vector<std::string> forms_of_motion() const;
+
+    /// Forms that are linear and of statics only.
+    bool is_linear_only() const { return is_consistent() || has_surface_cure(); }
+
+    bool has_forms() const { return model == "extended ordinary" || is_tensor_involved(); }
 
     bool after_the_cut() const { return multipliers != "intact"; }
     bool recomputes() const { return multipliers == "recomputed"; }

@@ -82,12 +82,12 @@ namespace perideal
   create_bond_operator(const std::shared_ptr<const BondWeights<dim>> &weights);
 
   /// Weighs every family with the model and chooses the loop for its shape. Collective.
-  /// @param moduli by material id; every material of the nodes is listed.
+  /// @param solid_of by material id; every material of the nodes is listed.
   template <int dim>
   std::unique_ptr<BondOperator<dim>>
-  create_bond_operator(const std::shared_ptr<const Families<dim>>                    &families,
-                       LinearModel<dim>                                              &model,
-                       const std::function<Moduli(const dealii::types::material_id)> &moduli);
+  create_bond_operator(const std::shared_ptr<const Families<dim>> &families,
+                       LinearModel<dim>                           &model,
+                       const SolidOf<dim>                         &solid_of);
 } // namespace perideal
 
 #endif

@@ -39,12 +39,12 @@ namespace perideal
   class ConsistentOperator : public BondOperator<dim>
   {
   public:
-    /// @param moduli by material id; every material of the nodes is listed. Collective.
-    ConsistentOperator(const std::shared_ptr<const Families<dim>>                    &families,
-                       const std::shared_ptr<const FaceGradient<dim>>                &gradient,
-                       const std::shared_ptr<const FaceValues<dim>>                  &prescribed,
-                       const Consistent<dim>                                         &model,
-                       const std::function<Moduli(const dealii::types::material_id)> &moduli);
+    /// @param solid_of by material id; every material of the nodes is listed. Collective.
+    ConsistentOperator(const std::shared_ptr<const Families<dim>>     &families,
+                       const std::shared_ptr<const FaceGradient<dim>> &gradient,
+                       const std::shared_ptr<const FaceValues<dim>>   &prescribed,
+                       const Consistent<dim>                          &model,
+                       const SolidOf<dim>                             &solid_of);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
@@ -69,6 +69,12 @@ namespace perideal
       std::vector<double> near, far;
     };
     using Pairs = std::array<double, n_pairs>;
+    /// What nodes are made of: C as a matrix on strain pairs, mean shear modulus [Pa].
+    struct Solid
+    {
+      std::array<Pairs, n_pairs> stiffness;
+      double                     shear_modulus;
+    };
     /// A vector of pairs as the bond loop reads it: 2-D one record (xx, yy, xy, 0),
     /// 3-D two: (xx, yy, zz, 0), (xy, yz, zx, 0).
     using PairRecord = std::array<NodeRecord, n_parts>;
@@ -105,7 +111,8 @@ namespace perideal
     void number_nodes();
     /// Nodes of the ghosts of a layout with dim values a node.
     std::vector<LocalIndex> nodes_of_ghosts(const dealii::Utilities::MPI::Partitioner &layout) const;
-    void weigh_bonds(const std::function<Moduli(const dealii::types::material_id)> &moduli);
+    void                    set_solids(const SolidOf<dim> &solid_of);
+    void                    weigh_bonds(const SolidOf<dim> &solid_of);
 
     void apply(NodalVector &force, const NodalVector &displacement, const bool with_prescribed) const;
     void import_displacement(const NodalVector &displacement) const;
@@ -146,7 +153,9 @@ namespace perideal
     std::vector<LocalIndex>  node_of_member;
     std::vector<GlobalIndex> global_number;
     LocalIndex               n_owned, n_local;
-    std::vector<Moduli>      material;
+    std::vector<Solid>       solids;
+    /// By owned node, of the above.
+    std::vector<LocalIndex> solid_of_node;
     /// Bond stiffness b of the families of either end, by slot [N/m^3].
     Ends stiffness;
     /// Prescribed entries [first, last) of the owned nodes that have any.

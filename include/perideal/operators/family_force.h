@@ -3,10 +3,7 @@
 #define perideal_operators_family_force_h
 
 #include <perideal/base/lanes.h>
-#include <perideal/operators/bond_force.h>
-#include <perideal/operators/rest_regions.h>
-
-#include <deal.II/base/aligned_vector.h>
+#include <perideal/operators/breaking_bonds.h>
 
 #include <array>
 #include <memory>
@@ -20,37 +17,27 @@ namespace perideal
    * energy. Lengths, sums and forces are in double precision.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  class FamilyForce : public BondForce<dim>
+  class FamilyForce : public BreakingBonds<dim>
   {
   public:
     using Weights = FamilyWeights<dim, n_sums, own_force_weights>;
 
     explicit FamilyForce(const Weights &weights);
 
-    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void        judge_bonds(const bool judge) override { judges_bonds = judge; }
-    void        reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
-                                       const typename BondForce<dim>::Reweigh        &reweigh) override;
-    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
-    void        compute(NodalVector &force, const NodalVector &displacement) override;
-    GlobalIndex n_broken_now() const override;
-    std::vector<BondEnds> broken_bonds() const override;
-    void                  restore_broken(const std::vector<BondEnds> &broken) override;
-    const BondList       &bond_list() const override { return bonds; }
-    double                strain_energy() const override;
-    double                released_energy(const NodalVector &velocity, const double time_step) const override;
-    const NodeRecord     *positions() const override { return position.data(); }
-    std::vector<double>   dilatation() const override
+    void                reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                               const typename BondForce<dim>::Reweigh        &reweigh) override;
+    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void                restore_broken(const std::vector<BondEnds> &broken) override;
+    double              strain_energy() const override;
+    double              released_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double> dilatation() const override
     {
       if constexpr (n_sums == 0)
         return std::vector<double>(families->n_owned(), 0.);
       else
         return {sums[0].begin(), sums[0].begin() + families->n_owned()};
     }
-    std::vector<double> damage() const override { return share_of_family(broken_volume); }
-    std::vector<double> cut_share() const override { return share_of_family(cut_volume); }
-    double              share_computed() const override { return regions.share_awake(); }
-    std::size_t         memory_consumption() const override;
+    std::size_t memory_consumption() const override;
 
   private:
     using States = std::array<double, n_sums>;
@@ -71,15 +58,17 @@ namespace perideal
       States sum = {}, force = {}, force_rate = {};
     };
 
-    /// False of padding, and of bonds that were cut or broke.
-    bool carries_force(const BondIndex slot) const;
-    /// The row that holds the slot.
-    LocalIndex near_end(const BondIndex slot) const;
-    /// Takes a bond out: all its weights become zero.
-    void remove(const BondIndex slot);
+    using BreakingBonds<dim>::families;
+    using BreakingBonds<dim>::bonds;
+    using BreakingBonds<dim>::rest_length;
+    using BreakingBonds<dim>::critical_stretch;
+    using BreakingBonds<dim>::regions;
+    using BreakingBonds<dim>::position;
+    using BreakingBonds<dim>::forces;
 
-    void measure_rest_lengths();
-    void import_positions(const NodalVector &displacement);
+    bool carries_force(const BondIndex slot) const override;
+    void clear_weights(const BondIndex slot) override;
+
     /// Copies weights, which become single precision.
     void take(const Weights &weights);
     /// Sums and forces of the bonds there are; with can_break, those too long break before.
@@ -101,7 +90,6 @@ namespace perideal
     /// Breaks those of a group of bonds that are too long.
     /// @param excess of their lengths over the largest ones [m]
     void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &excess);
-    void lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume);
 
     /// eps and its rate of one bond, from the end @p i.
     struct Motion
@@ -117,35 +105,19 @@ namespace perideal
     /// Slots of the bonds of an owned node.
     std::vector<BondCursor::End> slots_of(const LocalIndex i) const;
 
-    std::vector<double> share_of_family(const std::vector<double> &volume) const;
-
-    std::shared_ptr<const Families<dim>>          families;
-    BondList                                      bonds;
     FamilyMaps<n_sums>                            map;
     SlotWeights<float, n_sums, own_force_weights> weights;
     std::vector<double>                           energy;
 
-    /// Lengths at rest by slot [m].
-    std::vector<double> rest_length;
-    /// Stretches at which bonds break, by slot; empty where nothing breaks.
-    std::vector<float>  critical_stretch;
-    bool                judges_bonds = true;
-    RestRegions         regions;
-    std::vector<double> family_volume, broken_volume, cut_volume;
-
     std::vector<BrokenBond> broken_now;
     /// Where families are weighed anew: how, what the breaking in the last compute() has added to the
     /// forces, and the energy before.
-    typename BondForce<dim>::Reweigh reweigh;
-    std::shared_ptr<const Weights>   current_weights;
-    NodalVector                      force_change;
-    double                           energy_before = 0;
-    /// Of the lost bonds, those that were cut at the beginning.
-    std::size_t n_cut = 0;
-
-    dealii::AlignedVector<NodeRecord>       position, forces;
+    typename BondForce<dim>::Reweigh        reweigh;
+    std::shared_ptr<const Weights>          current_weights;
+    NodalVector                             force_change;
+    double                                  energy_before = 0;
     std::array<std::vector<double>, n_sums> sums, state;
-    NodalVector                             ghosted, ghosted_states;
+    NodalVector                             ghosted_states;
   };
 } // namespace perideal
 

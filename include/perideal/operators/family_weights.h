@@ -2,10 +2,7 @@
 #ifndef perideal_operators_family_weights_h
 #define perideal_operators_family_weights_h
 
-#include <perideal/base/types.h>
-#include <perideal/materials/linear_model.h>
-#include <perideal/neighbourhood/bond_list.h>
-#include <perideal/neighbourhood/families.h>
+#include <perideal/operators/bond_weights.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -17,51 +14,6 @@
 
 namespace perideal
 {
-  /// Number of families of all ranks by what became of their weights.
-  struct FamilyCounts
-  {
-    GlobalIndex fallback = 0, singular = 0, indefinite = 0;
-  };
-
-  /**
-   * What a model made of every family and bond, whatever its family shape. Linear operator
-   * and nonlinear force of a scene share it.
-   */
-  template <int dim>
-  class BondWeights
-  {
-  public:
-    virtual ~BondWeights() = default;
-
-    using ModuliOf = std::function<Moduli(const dealii::types::material_id)>;
-
-    /// Weighs the families of some owned nodes anew, without the bonds that are gone. Collective.
-    /// @param is_gone of bonds between an owned node and another local one
-    virtual void reweigh(const std::vector<LocalIndex>                                 &nodes,
-                         LinearModel<dim>                                              &model,
-                         const ModuliOf                                                &moduli,
-                         const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) = 0;
-
-    virtual std::size_t memory_consumption() const = 0;
-
-    std::shared_ptr<const Families<dim>> families;
-    BondList                             bonds;
-    FamilyShape                          shape;
-    bool                                 symmetric;
-
-    FamilyCounts              counts;
-    std::vector<FamilyReport> reports;
-
-  protected:
-    BondWeights(const std::shared_ptr<const Families<dim>> &families, const LinearModel<dim> &model)
-      : families(families)
-      , bonds(*families)
-      , shape(model.shape())
-      , symmetric(model.is_symmetric())
-    {
-    }
-  };
-
   /// What turns the sums of families into states, by local node, ghosts included.
   template <unsigned int n_sums>
   struct FamilyMaps
@@ -140,15 +92,15 @@ namespace perideal
   {
   public:
     /// Weighs every family. Collective.
-    FamilyWeights(const std::shared_ptr<const Families<dim>>                    &families,
-                  LinearModel<dim>                                              &model,
-                  const std::function<Moduli(const dealii::types::material_id)> &moduli,
-                  const BondPredicate<dim>                                      &is_cut,
-                  const bool                                                     will_change);
+    FamilyWeights(const std::shared_ptr<const Families<dim>> &families,
+                  LinearModel<dim>                           &model,
+                  const SolidOf<dim>                         &solid_of,
+                  const BondPredicate<dim>                   &is_cut,
+                  const bool                                  will_change);
 
     void reweigh(const std::vector<LocalIndex>                                 &nodes,
                  LinearModel<dim>                                              &model,
-                 const typename BondWeights<dim>::ModuliOf                     &moduli,
+                 const SolidOf<dim>                                            &solid_of,
                  const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) override;
 
     std::size_t memory_consumption() const override;
@@ -175,9 +127,8 @@ namespace perideal
     std::vector<double> energy;
 
   private:
-    void weigh_families(LinearModel<dim>                                              &model,
-                        const std::function<Moduli(const dealii::types::material_id)> &moduli,
-                        const BondPredicate<dim>                                      &is_cut);
+    void
+    weigh_families(LinearModel<dim> &model, const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut);
     /// What the families' owners made of far ends, and what follows from both ends. Collective.
     void join_ends();
     void import_maps();
@@ -189,17 +140,16 @@ namespace perideal
   };
 
   /// Weighs every family with the model. Collective.
-  /// @param moduli by material id; every material of the nodes is listed.
+  /// @param solid_of by material id; every material of the nodes is listed.
   /// @param is_cut bonds that are there no more: they get no weights and the families are
   ///   weighed without them; empty: none
   /// @param will_change whether there will be a reweigh()
   template <int dim>
-  std::shared_ptr<BondWeights<dim>>
-  weigh_bonds(const std::shared_ptr<const Families<dim>>                    &families,
-              LinearModel<dim>                                              &model,
-              const std::function<Moduli(const dealii::types::material_id)> &moduli,
-              const BondPredicate<dim>                                      &is_cut = BondPredicate<dim>(),
-              const bool                                                     will_change = false);
+  std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &families,
+                                                LinearModel<dim>                           &model,
+                                                const SolidOf<dim>                         &solid_of,
+                                                const BondPredicate<dim> &is_cut      = BondPredicate<dim>(),
+                                                const bool                will_change = false);
 
   /// Calls a macro with every family shape there is: dim, n_sums, own_force_weights.
 #define PERIDEAL_FOR_FAMILY_SHAPES(CALL)                                                                     \

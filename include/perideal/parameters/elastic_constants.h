@@ -21,6 +21,10 @@ namespace perideal
     double          poisson_ratio = 0;
     PlaneAssumption assumption    = PlaneAssumption::solid;
 
+    /// Those with given moduli in the problem's own dimension.
+    static ElasticConstants
+    of_moduli(const double bulk_modulus, const double shear_modulus, const PlaneAssumption assumption);
+
     /// mu = E/(2(1+nu)) [Pa].
     double shear_modulus() const;
 

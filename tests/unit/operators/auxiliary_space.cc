@@ -33,7 +33,7 @@ namespace
       const auto                                     model = create_model<dim>(parameters, 1.);
       const std::shared_ptr<const BondOperator<dim>> bonds =
         create_bond_operator<dim>(body.families, *model, [](const dealii::types::material_id) {
-          return Moduli{constants(dim).bulk_modulus(), constants(dim).shear_modulus()};
+          return ElasticSolid<dim>(constants(dim));
         });
       std::vector<std::uint8_t> held(dim * body.nodes.size(), 0);
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)

@@ -25,18 +25,17 @@ namespace
       : body(mesh)
       , loads(text)
       , boundaries(resolve_boundaries(mesh, loads))
-      , moduli([materials](const dealii::types::material_id id) {
-        return Moduli{materials[id].bulk_modulus(), materials[id].shear_modulus()};
-      })
+      , solid_of(
+          [materials](const dealii::types::material_id id) { return ElasticSolid<dim>(materials[id]); })
     {
       ModelParameters parameters;
       parameters.resolve(dim);
       gradient = std::make_shared<const FaceGradient<dim>>(
-        mesh, body.nodes, [&](const auto id) { return moduli(id).shear_modulus; });
+        mesh, body.nodes, [&](const auto id) { return solid_of(id).isotropic().shear_modulus(); });
       values = std::make_shared<FaceValues<dim>>(*gradient, loads, boundaries);
       values->set_time(loads, 1.);
       bonds = std::make_shared<ConsistentOperator<dim>>(
-        body.families, gradient, values, create_consistent<dim>(parameters, 3.01), moduli);
+        body.families, gradient, values, create_consistent<dim>(parameters, 3.01), solid_of);
       for (NodalVector *vector : {&displacement, &force, &external})
         bonds->initialize(*vector);
     }
@@ -62,14 +61,14 @@ namespace
              dealii::Utilities::MPI::max(size, MPI_COMM_WORLD);
     }
 
-    test::Body<dim>                                         body;
-    Loads<dim>                                              loads;
-    std::vector<std::vector<dealii::types::boundary_id>>    boundaries;
-    std::function<Moduli(const dealii::types::material_id)> moduli;
-    std::shared_ptr<const FaceGradient<dim>>                gradient;
-    std::shared_ptr<FaceValues<dim>>                        values;
-    std::shared_ptr<ConsistentOperator<dim>>                bonds;
-    NodalVector                                             displacement, force, external;
+    test::Body<dim>                                      body;
+    Loads<dim>                                           loads;
+    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
+    SolidOf<dim>                                         solid_of;
+    std::shared_ptr<const FaceGradient<dim>>             gradient;
+    std::shared_ptr<FaceValues<dim>>                     values;
+    std::shared_ptr<ConsistentOperator<dim>>             bonds;
+    NodalVector                                          displacement, force, external;
   };
 
   /// A linear displacement and, as formulas, the conditions that belong to it.

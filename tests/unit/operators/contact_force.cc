@@ -29,7 +29,7 @@ namespace
         1., 0.25, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
       bonds = create_bond_force<dim>(*weigh_bonds<dim>(
         body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
-          return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
+          return ElasticSolid<dim>(constants);
         }));
       bonds->cut([](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
         return (a[0] < 0.5) != (b[0] < 0.5);

@@ -26,7 +26,8 @@ namespace
       parameters.resolve(dim);
       const auto weights = weigh_bonds<dim>(
         body.families, *create_model<dim>(parameters, 1.), [](const dealii::types::material_id) {
-          return Moduli{1., 0.6};
+          return ElasticSolid<dim>(ElasticConstants::of_moduli(
+            1., 0.6, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain));
         });
       bonds   = create_bond_force<dim>(*weights);
       damping = std::make_unique<RelativeDamping<dim>>(

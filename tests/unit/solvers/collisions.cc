@@ -31,10 +31,8 @@ namespace
       parameters.resolve(2);
       const ElasticConstants constants =
         parameters.constants_of_model({1., 0.3, PlaneAssumption::plane_stress});
-      const auto moduli = [&](const dealii::types::material_id) {
-        return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
-      };
-      weights = weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), moduli);
+      const auto solid_of = [&](const dealii::types::material_id) { return ElasticSolid<2>(constants); };
+      weights             = weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), solid_of);
       ConstrainedOperator<2> system(std::shared_ptr<BondOperator<2>>(create_bond_operator<2>(weights)),
                                     std::make_shared<MirrorLayer<2>>(body.nodes),
                                     body.nodes,

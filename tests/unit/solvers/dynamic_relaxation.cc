@@ -59,10 +59,9 @@ namespace
       parameters.resolve(dim);
       const ElasticConstants own = parameters.constants_of_model(
         {modulus, 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_stress});
-      return weigh_bonds<dim>(
-        body.families, *create_model<dim>(parameters, 1.), [&](const dealii::types::material_id) {
-          return Moduli{own.bulk_modulus(), own.shear_modulus()};
-        });
+      return weigh_bonds<dim>(body.families,
+                              *create_model<dim>(parameters, 1.),
+                              [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
     }
 
     std::unique_ptr<ConstrainedOperator<dim>> make_system(const std::shared_ptr<BondWeights<dim>> &own) const

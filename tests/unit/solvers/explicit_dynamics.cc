@@ -31,10 +31,9 @@ namespace
       parameters.resolve(2);
       const ElasticConstants constants =
         parameters.constants_of_model({1., 0.3, PlaneAssumption::plane_stress});
-      const auto moduli = [&](const dealii::types::material_id) {
-        return Moduli{constants.bulk_modulus(), constants.shear_modulus()};
-      };
-      bonds = create_bond_force<2>(*weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), moduli));
+      const auto solid_of = [&](const dealii::types::material_id) { return ElasticSolid<2>(constants); };
+      bonds =
+        create_bond_force<2>(*weigh_bonds<2>(body.families, *create_model<2>(parameters, 1.), solid_of));
       bonds->initialize(no_load);
     }
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/tensor_involved.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace perideal
+{
+  using dealii::SymmetricTensor;
+
+  template <int dim>
+  TensorInvolved<dim>::TensorInvolved(const Moments moments, const double thickness)
+    : moments(moments)
+    , thickness(thickness)
+  {
+  }
+
+  template <int dim>
+  SymmetricTensor<4, dim> TensorInvolved<dim>::symmetrised(const SymmetricTensor<4, dim> &stiffness)
+  {
+    SymmetricTensor<4, dim> result;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = i; k < dim; ++k)
+        for (unsigned int p = 0; p < dim; ++p)
+          for (unsigned int q = p; q < dim; ++q)
+            result[i][k][p][q] = 0.5 * (stiffness[i][p][k][q] + stiffness[i][q][k][p]);
+    return result;
+  }
+
+  template <int dim>
+  SymmetricTensor<4, dim> TensorInvolved<dim>::micromodulus(const SymmetricTensor<4, dim> &stiffness)
+  {
+    SymmetricTensor<4, dim> result = symmetrised(stiffness);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = i; k < dim; ++k)
+        {
+          double trace = 0;
+          for (unsigned int a = 0; a < dim; ++a)
+            trace += result[i][k][a][a];
+          for (unsigned int c = 0; c < dim; ++c)
+            result[i][k][c][c] -= trace / (dim + 2);
+        }
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<4, dim> TensorInvolved<dim>::micromodulus_defect(const SymmetricTensor<4, dim> &stiffness)
+  {
+    dealii::Tensor<4, dim> result;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int p = 0; p < dim; ++p)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int q = 0; q < dim; ++q)
+            result[i][p][k][q] = 0.5 * (stiffness[i][p][k][q] - stiffness[i][q][k][p]);
+    return result;
+  }
+
+  template <int dim>
+  bool TensorInvolved<dim>::family_micromodulus(const FamilyView<dim>   &family,
+                                                SymmetricTensor<4, dim> &d) const
+  {
+    // D_ik = 2 M^-1 S_ik on symmetric tensors, in Kelvin's basis, where off-diagonal entries carry a root of
+    // two; lengths in units of the horizon. Flat families have no inverse in all directions: there D stays
+    // zero across, and uniform second gradients are not met.
+    constexpr unsigned int n = SymmetricTensor<2, dim>::n_independent_components;
+    using Matrix             = Eigen::Matrix<double, n, n>;
+    using Vector             = Eigen::Matrix<double, n, 1>;
+    const auto kelvin        = [](const unsigned int p) { return p < dim ? 1. : std::sqrt(2.); };
+    const auto axes = [](const unsigned int p) { return SymmetricTensor<2, dim>::unrolled_to_component_indices(p); };
+
+    Matrix m = Matrix::Zero();
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        Vector square;
+        for (unsigned int p = 0; p < n; ++p)
+          square[p] = kelvin(p) * family.bond[axes(p)[0]][j] * family.bond[axes(p)[1]][j];
+        m += family.volume[j] / (family.length_square[j] * std::sqrt(family.length_square[j])) * square *
+             square.transpose();
+      }
+    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
+    Vector                                      inverse = eigen.eigenvalues();
+    bool                                        is_full = true;
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const bool is_there = inverse[p] > 1e-10 * eigen.eigenvalues()[n - 1];
+        inverse[p]          = is_there ? 1. / inverse[p] : 0.;
+        is_full &= is_there;
+      }
+    const Matrix solve = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+
+    const SymmetricTensor<4, dim> s = symmetrised(family.stiffness);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = i; k < dim; ++k)
+        {
+          Vector right;
+          for (unsigned int p = 0; p < n; ++p)
+            right[p] = 2. * kelvin(p) * s[i][k][axes(p)[0]][axes(p)[1]];
+          const Vector row = solve * right;
+          for (unsigned int p = 0; p < n; ++p)
+            d[i][k][axes(p)[0]][axes(p)[1]] = row[p] / kelvin(p);
+        }
+    return is_full;
+  }
+
+  template <int dim>
+  void TensorInvolved<dim>::compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients)
+  {
+    constexpr unsigned int  n = SymmetricTensor<2, dim>::n_independent_components;
+    SymmetricTensor<4, dim> d;
+    if (moments == Moments::family)
+      coefficients.report.singular = !family_micromodulus(family, d);
+    else
+      {
+        using dealii::numbers::PI;
+        const double sphere = dim == 3 ? PI * std::pow(family.horizon, 4) / 15. :
+                                         PI * std::pow(family.horizon, 3) * thickness / 12.;
+        d                   = micromodulus(family.stiffness) / sphere;
+      }
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        dealii::Tensor<1, dim> bond;
+        for (int a = 0; a < dim; ++a)
+          bond[a] = family.bond[a][j];
+        // A half of the bond's force from either family.
+        const double factor = 0.5 * family.node_volume * family.volume[j] /
+                              (family.length_square[j] * std::sqrt(family.length_square[j]));
+        const SymmetricTensor<2, dim> tensor = factor * (d * symmetrize(outer_product(bond, bond)));
+        for (unsigned int p = 0; p < n; ++p)
+          coefficients.tensor[p][j] = tensor.access_raw_entry(p);
+      }
+  }
+
+  template class TensorInvolved<2>;
+  template class TensorInvolved<3>;
+} // namespace perideal

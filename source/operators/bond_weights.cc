@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/bond_weights.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace perideal
+{
+  template <int dim>
+  void BondWeights<dim>::visit_families(LinearModel<dim>         &model,
+                                        const SolidOf<dim>       &solid_of,
+                                        const BondPredicate<dim> &is_cut,
+                                        const StoreFamily        &store)
+  {
+    reports.resize(families->n_owned());
+    BondCursor                   cursor(bonds);
+    std::vector<BondCursor::End> ends;
+    FamilyView<dim>              view;
+    FamilyCoefficients           coefficients;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        view.reinit(*families,
+                    i,
+                    is_cut ?
+                      [&](const LocalIndex j) { return is_cut(families->position[i], families->position[j]); } :
+                      std::function<bool(const LocalIndex)>());
+        view.set_solid(solid_of(families->material[i]));
+        coefficients.resize(view.size, shape);
+        model.compute(view, coefficients);
+        reports[i] = coefficients.report;
+        cursor.find(i, families->begin(i), families->end(i), ends);
+        store(i, coefficients, view.member, ends);
+      }
+  }
+
+  template <int dim>
+  void BondWeights<dim>::count_reports()
+  {
+    counts = {};
+    for (const FamilyReport &report : reports)
+      {
+        counts.fallback += report.fallback;
+        counts.singular += report.singular;
+        counts.indefinite += report.indefinite;
+      }
+    for (GlobalIndex *count : {&counts.fallback, &counts.singular, &counts.indefinite})
+      *count = dealii::Utilities::MPI::sum(*count, families->communicator);
+  }
+
+  template class BondWeights<2>;
+  template class BondWeights<3>;
+} // namespace perideal
