@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/advice.h>
 #include <perideal/base/text.h>
+#include <perideal/materials/lattice.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/mpi.h>
@@ -70,6 +71,36 @@ namespace perideal
         result.push_back("distorted cells: the sharpest corner has a scaled Jacobian of " +
                          short_number(corner) + " (1 is a box, 0 a collapsed cell)");
     }
+
+    /// Solids that are none, and bonds with tensors that are unstable.
+    template <int dim>
+    void warn_of_solids(const SceneParameters    &parameters,
+                        const SceneState<dim>    &scene,
+                        std::vector<std::string> &result)
+    {
+      for (const auto &[id, solid] : scene.solids)
+        {
+          const std::string name     = scene.mesh->material_name(id);
+          const double      smallest = smallest_stiffness(solid);
+          if (smallest <= 0)
+            result.push_back("the stiffness of " + name + " is not positive definite: its smallest eigenvalue is " +
+                             short_number(smallest) + " Pa, so that some strains set energy free");
+          if (!parameters.model.is_tensor_involved() || !scene.model || smallest <= 0)
+            continue;
+          const double factor = parameters.nodes.horizon_factor;
+          const double waves  = smallest_wave_stiffness(*scene.model, solid, factor);
+          const double bonds  = smallest_bond_stiffness(*scene.model, solid, factor);
+          if (waves <= 0)
+            result.push_back("bonds of " + name + " are unstable at a horizon factor of " + short_number(factor) +
+                             ": short waves have negative stiffness, " + short_number(waves) +
+                             " times that of the solid. Enlarge Nodes/Horizon factor, or take Material/Form = "
+                             "consistent");
+          else if (bonds < -1e-12)
+            result.push_back("bonds of " + name + " push sideways, " + short_number(-bonds) +
+                             " times what they pull along: stable inside the body, but perhaps not at its surfaces "
+                             "and cracks");
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -95,19 +126,21 @@ namespace perideal
                       " families miss a moment condition: uniform strain is not exact there (corners, thin "
                       "parts, flat cells, small horizon); see the field \"family status\""));
     if (parameters.model.model == "bond based")
-      for (const auto &constants : scene.constants)
+      for (const auto &solid : scene.solids)
         {
-          const double own = parameters.model.constants_of_model(constants.second).poisson_ratio;
-          if (std::abs(own - constants.second.poisson_ratio) > 1e-3)
+          const ElasticConstants &given = solid.second.isotropic();
+          const double            own   = parameters.model.constants_of_model(given).poisson_ratio;
+          if (std::abs(own - given.poisson_ratio) > 1e-3)
             result.push_back("bond-based materials have a Poisson's ratio of " + short_number(own) +
-                             " here: " + scene.mesh->material_name(constants.first) + " is not given its " +
-                             short_number(constants.second.poisson_ratio));
+                             " here: " + scene.mesh->material_name(solid.first) + " is not given its " +
+                             short_number(given.poisson_ratio));
         }
     if (parameters.model.model == "ordinary")
       result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
     if (consistent && (parameters.loads.displacement_treatment == "layer" ||
                        parameters.loads.displacement_treatment == "reference"))
       result.push_back("held nodes take from the consistent form the accuracy that face values have");
+    warn_of_solids(parameters, scene, result);
     warn_of_cells(scene, result);
     return result;
   }

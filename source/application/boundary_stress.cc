@@ -38,9 +38,9 @@ namespace perideal
     }
 
     template <int dim>
-    std::vector<double> values_of(const SurfaceState<dim> &surface, const ElasticConstants &constants)
+    std::vector<double> values_of(const SurfaceState<dim> &surface, const ElasticSolid<dim> &solid)
     {
-      const ElasticState  state = elastic_state<dim>(symmetrize(surface.gradient), constants);
+      const ElasticState  state = elastic_state<dim>(symmetrize(surface.gradient), solid);
       std::vector<double> result;
       for (unsigned int d = 0; d < dim; ++d)
         result.push_back(surface.normal[d]);
@@ -91,7 +91,7 @@ namespace perideal
     const CellGraph<dim> &graph = scene.gradient ? scene.gradient->graph() : *own_graph;
     const Held held = parameters.loads.displacement_treatment == "layer" ? Held::at_nodes : Held::at_faces;
     const SurfaceRecovery<dim> recovery(
-      *scene.mesh, graph, scene.constants, scene.loads, scene.condition_boundaries, held);
+      *scene.mesh, graph, scene.solids, scene.loads, scene.condition_boundaries, held);
     Json result = Json::object();
     for (const std::string &name : parameters.boundary_stress)
       {
@@ -101,7 +101,7 @@ namespace perideal
         for (const SurfaceState<dim> &state : recovery.recover(boundary, scene.displacement, time))
           {
             points.push_back(state.centre);
-            values.push_back(values_of(state, scene.constants.at(scene.nodes->material[state.node])));
+            values.push_back(values_of(state, scene.solids.at(scene.nodes->material[state.node])));
           }
         const BoundaryCurve<dim> curve(*scene.mesh, boundary);
         const auto               rows = curve.rows(points, values);

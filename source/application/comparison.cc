@@ -17,7 +17,7 @@ namespace perideal
       ElasticFem<dim>      fem(*scene.mesh, scene.loads);
       {
         const Timings::Scope part(timings, "fem: assembly");
-        fem.assemble(scene.constants, time);
+        fem.assemble(scene.solids, time);
       }
       {
         const Timings::Scope part(timings, "fem: multigrid");
@@ -46,7 +46,7 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "reference");
     ElasticFem<dim>      fem(*scene.mesh, scene.loads, 2, refinements);
-    fem.assemble(scene.constants, time);
+    fem.assemble(scene.solids, time);
     fem.set_up_solver();
     // Far below the discretisation errors that are to be seen.
     fem.solve(1e-10);

@@ -53,8 +53,7 @@ namespace perideal
       std::vector<ElasticState> result;
       for (const auto &strain :
            compute_nodal_strain(*scene.gradient, *scene.face_values, *scene.nodes, scene.displacement))
-        result.push_back(
-          elastic_state<dim>(strain, scene.constants.at(scene.nodes->material[result.size()])));
+        result.push_back(elastic_state<dim>(strain, scene.solids.at(scene.nodes->material[result.size()])));
       return result;
     }
 

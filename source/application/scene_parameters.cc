@@ -120,7 +120,7 @@ namespace perideal
     declare(prm, file);
     file.apply(prm);
     nodes.check();
-    material.check();
+    material.check(dimension);
     solver.check();
     cracks.check();
     contact.check();
@@ -152,6 +152,16 @@ namespace perideal
       check_relaxation();
     else
       check_statics();
+    const auto check_symmetry = [this](const MaterialProperties &properties) {
+      if (!properties.symmetry.is_isotropic() && !model.is_tensor_involved())
+        throw InputError("this model is one of isotropic materials")
+          .parameter(properties.symmetry.section + "/Symmetry")
+          .given(properties.symmetry.name)
+          .allowed("isotropic; or set Material/Model = tensor involved");
+    };
+    check_symmetry(material.body);
+    for (const auto &group : material.groups)
+      check_symmetry(group.second);
     const bool   consistent = model.is_consistent();
     std::string &treatment  = loads.displacement_treatment;
     if (treatment == "automatic")

@@ -31,7 +31,7 @@ namespace perideal
       scene.families,
       parameters.contact,
       parameters.nodes.horizon_factor,
-      [&](const dealii::types::material_id id) { return scene.constants.at(id).bulk_modulus(); },
+      [&](const dealii::types::material_id id) { return scene.solids.at(id).isotropic().bulk_modulus(); },
       on_surface);
   }
 

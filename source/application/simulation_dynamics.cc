@@ -30,8 +30,9 @@ namespace perideal
         const auto formula = parameters.model.stretch_formula == "tensor involved" ?
                                tensor_critical_stretch :
                                ordinary_critical_stretch;
-        return formula(
-          parameters.model.constants_of_model(scene.constants.at(id)), material.fracture_energy, horizon);
+        return formula(parameters.model.constants_of_model(scene.solids.at(id).isotropic()),
+                       material.fracture_energy,
+                       horizon);
       }
     return std::numeric_limits<double>::infinity();
   }

@@ -45,7 +45,7 @@ namespace perideal
     for (const auto &group : parameters.material.groups)
       scene.mesh->material_id(group.first, "Material/" + group.first);
     for (const auto id : scene.mesh->material_ids)
-      scene.constants[id] = parameters.material.elastic_constants(properties_of(id), dim);
+      scene.solids[id] = parameters.material.elastic_solid<dim>(properties_of(id));
   }
 
   template <int dim>
@@ -85,7 +85,7 @@ namespace perideal
     const Timings::Scope part(timings, "setup: face gradient");
     scene.gradient = std::make_shared<const FaceGradient<dim>>(
       *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
-        return scene.constants.at(id).shear_modulus();
+        return scene.solids.at(id).isotropic().shear_modulus();
       });
     scene.face_values =
       by_nodes() ?
@@ -97,7 +97,10 @@ namespace perideal
   SolidOf<dim> Simulation<dim>::solid_of_model() const
   {
     return [this](const dealii::types::material_id id) {
-      return ElasticSolid<dim>(parameters.model.constants_of_model(scene.constants.at(id)));
+      const ElasticSolid<dim> &solid = scene.solids.at(id);
+      return parameters.model.is_tensor_involved() ?
+               solid :
+               ElasticSolid<dim>(parameters.model.constants_of_model(solid.isotropic()));
     };
   }
 
@@ -205,7 +208,7 @@ namespace perideal
             std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads, create_parent_mesh(*scene.mesh));
         else
           scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
-        scene.auxiliary_fem->assemble(scene.constants, 0.);
+        scene.auxiliary_fem->assemble(scene.solids, 0.);
       }
     scene.linear_solver = create_linear_solver(
       parameters.solver, choice, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());

@@ -34,12 +34,12 @@ namespace perideal
   ElasticFit<dim>::ElasticFit(const dealii::Point<dim>     &centre,
                               const double                  scale,
                               const dealii::Tensor<1, dim> &offset,
-                              const ElasticConstants       &constants)
+                              const ElasticSolid<dim>      &solid)
     : centre(centre)
     , scale(scale)
     , offset(offset)
-    , lambda_ratio(constants.lame_lambda() / (2. * constants.shear_modulus()))
-    , twice_mu(2. * constants.shear_modulus())
+    , twice_mu(2. * solid.isotropic().shear_modulus())
+    , stiffness(solid.stiffness() / twice_mu)
   {
   }
 
@@ -108,19 +108,20 @@ namespace perideal
                                      const double                  value,
                                      const double                  weight)
   {
-    // t_c/(2 mu) = lambda/(2 mu) n_c u_d,d + (u_c,d + u_d,c) n_d/2
+    // t_c = C_cpkq u_k,q n_p
     Row        row{};
     const auto x = scaled(point);
-    Powers     of_component{};
-    of_component[component] = 1;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        Powers along{};
-        along[d] = 1;
-        add_term(row, d, along, x, lambda_ratio * normal[component]);
-        add_term(row, component, along, x, 0.5 * normal[d]);
-        add_term(row, d, of_component, x, 0.5 * normal[d]);
-      }
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int q = 0; q < dim; ++q)
+        {
+          double factor = 0.;
+          for (unsigned int p = 0; p < dim; ++p)
+            factor += stiffness[component][p][k][q] * normal[p];
+          Powers along{};
+          along[q] = 1;
+          if (factor != 0.)
+            add_term(row, k, along, x, factor);
+        }
     add_equation(row, value * scale / twice_mu, weight);
   }
 
@@ -133,15 +134,16 @@ namespace perideal
     for (unsigned int c = 0; c < dim; ++c)
       {
         Row row{};
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            Powers twice{}, mixed{};
-            twice[d] = 2;
-            ++mixed[c];
-            ++mixed[d];
-            add_term(row, c, twice, x, 0.5);
-            add_term(row, d, mixed, x, lambda_ratio + 0.5);
-          }
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int p = 0; p < dim; ++p)
+            for (unsigned int q = 0; q < dim; ++q)
+              {
+                Powers second{};
+                ++second[p];
+                ++second[q];
+                if (stiffness[c][p][k][q] != 0.)
+                  add_term(row, k, second, x, stiffness[c][p][k][q]);
+              }
         add_equation(row, -body_force[c] * scale * scale / twice_mu, weight);
       }
   }

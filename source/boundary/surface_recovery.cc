@@ -19,13 +19,13 @@ namespace perideal
   SurfaceRecovery<dim>::SurfaceRecovery(
     const Mesh<dim>                                            &mesh,
     const CellGraph<dim>                                       &graph,
-    const ConstantsByMaterial                                  &constants,
+    const SolidsByMaterial<dim>                                &solids,
     const Loads<dim>                                           &loads,
     const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
     const Held                                                  held)
     : mesh(mesh)
     , graph(graph)
-    , constants(constants)
+    , solids(solids)
     , loads(loads)
     , boundaries(boundaries)
     , held(held)
@@ -74,7 +74,7 @@ namespace perideal
                                                    const double                               time) const
   {
     const double    size = 2. * face.centre.distance(graph.position[face.node]);
-    ElasticFit<dim> fit(face.centre, size, displacement[face.node], constants.at(graph.material[face.node]));
+    ElasticFit<dim> fit(face.centre, size, displacement[face.node], solids.at(graph.material[face.node]));
     for (const LocalIndex k : stencil)
       {
         const double weight = 1. / (1. + face.centre.distance_square(graph.position[k]) / (size * size));

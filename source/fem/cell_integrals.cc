@@ -33,14 +33,8 @@ namespace perideal
         unknown_of_shape[shape][component] = element.component_to_system_index(component, shape);
   }
 
-  // With G = int grad N_a (x) grad N_b dV the block of two shape functions is
-  //   K_ij = lambda G_ij + mu (G_ji + delta_ij tr G),
-  // from sigma = lambda tr(eps) I + 2 mu eps. G depends on geometry only and the
-  // matrix is symmetric, so half of the blocks of scalar shapes are enough.
   template <int dim>
-  void CellIntegrals<dim>::stiffness(const Cell                 &cell,
-                                     const ElasticConstants     &constants,
-                                     dealii::FullMatrix<double> &matrix)
+  void CellIntegrals<dim>::integrate_products(const Cell &cell)
   {
     const unsigned int n_shapes = unknown_of_shape.size();
     gradients.reinit(typename dealii::Triangulation<dim>::cell_iterator(cell));
@@ -61,9 +55,19 @@ namespace perideal
               for (unsigned int j = 0; j < dim; ++j)
                 (*product)[i][j] += weighted[a][i] * gradient[b][j];
       }
+  }
 
-    const double lambda = constants.lame_lambda(), mu = constants.shear_modulus();
-    auto         product = products.begin();
+  // With G = int grad N_a (x) grad N_b dV the block of two shape functions is
+  //   K_ij = lambda G_ij + mu (G_ji + delta_ij tr G),
+  // from sigma = lambda tr(eps) I + 2 mu eps. G depends on geometry only and the
+  // matrix is symmetric, so half of the blocks of scalar shapes are enough.
+  template <int dim>
+  void CellIntegrals<dim>::isotropic_stiffness(const ElasticConstants     &constants,
+                                               dealii::FullMatrix<double> &matrix) const
+  {
+    const unsigned int n_shapes = unknown_of_shape.size();
+    const double       lambda = constants.lame_lambda(), mu = constants.shear_modulus();
+    auto               product = products.begin();
     for (unsigned int a = 0; a < n_shapes; ++a)
       for (unsigned int b = a; b < n_shapes; ++b, ++product)
         {
@@ -77,6 +81,39 @@ namespace perideal
                 matrix(unknown_of_shape[b][j], unknown_of_shape[a][i]) = entry;
               }
         }
+  }
+
+  // Of any solid: K_ij = C_ipjq G_pq.
+  template <int dim>
+  void CellIntegrals<dim>::anisotropic_stiffness(const dealii::SymmetricTensor<4, dim> &stiffness,
+                                                 dealii::FullMatrix<double>            &matrix) const
+  {
+    const unsigned int           n_shapes = unknown_of_shape.size();
+    const dealii::Tensor<4, dim> c        = stiffness;
+    auto                         product  = products.begin();
+    for (unsigned int a = 0; a < n_shapes; ++a)
+      for (unsigned int b = a; b < n_shapes; ++b, ++product)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              double entry = 0.;
+              for (unsigned int p = 0; p < dim; ++p)
+                entry += c[i][p][j] * (*product)[p];
+              matrix(unknown_of_shape[a][i], unknown_of_shape[b][j]) = entry;
+              matrix(unknown_of_shape[b][j], unknown_of_shape[a][i]) = entry;
+            }
+  }
+
+  template <int dim>
+  void CellIntegrals<dim>::stiffness(const Cell                 &cell,
+                                     const ElasticSolid<dim>    &solid,
+                                     dealii::FullMatrix<double> &matrix)
+  {
+    integrate_products(cell);
+    if (solid.is_isotropic())
+      isotropic_stiffness(solid.isotropic(), matrix);
+    else
+      anisotropic_stiffness(solid.stiffness(), matrix);
   }
 
   template <int dim>

@@ -125,10 +125,10 @@ namespace perideal
                                     dealii::FullMatrix<double> &matrix,
                                     dealii::Vector<double>     &forces) const
   {
-    const auto material = constants.find(cell->material_id());
+    const auto material = solids.find(cell->material_id());
     // Not an Assert: in Release a body without stiffness would come out, silently.
     AssertThrow(
-      material != constants.end(),
+      material != solids.end(),
       dealii::ExcMessage("no elastic constants for material id " + std::to_string(cell->material_id())));
     integrals.stiffness(cell, material->second, matrix);
 
@@ -158,10 +158,10 @@ namespace perideal
   }
 
   template <int dim>
-  void ElasticFem<dim>::assemble(const ConstantsByMaterial &constants, const double time)
+  void ElasticFem<dim>::assemble(const SolidsByMaterial<dim> &solids, const double time)
   {
-    this->constants = constants;
-    this->time      = time;
+    this->solids = solids;
+    this->time   = time;
     algebraic_multigrid.reset();
     polynomial_multigrid.reset();
     unknowns.distribute_dofs(element);
@@ -193,7 +193,7 @@ namespace perideal
     else
       {
         auto linear = std::make_unique<ElasticFem<dim>>(body, loads, own_cells);
-        linear->assemble(constants, time);
+        linear->assemble(solids, time);
         polynomial_multigrid = std::make_unique<PolynomialMultigrid<dim>>(*this, std::move(linear));
       }
   }

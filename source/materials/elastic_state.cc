@@ -19,24 +19,20 @@ namespace perideal
   }
 
   template <int dim>
-  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain, const ElasticConstants &constants)
+  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain, const ElasticSolid<dim> &solid)
   {
-    const double lambda = constants.lame_lambda(), nu = constants.poisson_ratio;
     ElasticState state;
+    state.strain = solid.strain_in_space(strain);
+    if (solid.assumption() != PlaneAssumption::plane_stress)
+      state.stress = solid.stiffness_in_space() * state.strain;
+    // The same in the plane, and the only ones in plane stress.
+    const dealii::SymmetricTensor<2, dim> in_plane = solid.stiffness() * strain;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = i; j < dim; ++j)
-        {
-          state.strain[i][j] = strain[i][j];
-          state.stress[i][j] =
-            2. * constants.shear_modulus() * strain[i][j] + (i == j ? lambda * trace(strain) : 0.);
-        }
-    if (constants.assumption == PlaneAssumption::plane_stress)
-      state.strain[2][2] = -nu / (1. - nu) * trace(strain);
-    if (constants.assumption == PlaneAssumption::plane_strain)
-      state.stress[2][2] = lambda * trace(strain);
+        state.stress[i][j] = in_plane[i][j];
     return state;
   }
 
-  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 2> &, const ElasticConstants &);
-  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 3> &, const ElasticConstants &);
+  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 2> &, const ElasticSolid<2> &);
+  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 3> &, const ElasticSolid<3> &);
 } // namespace perideal

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/parameters/elastic_solid.h>
 
+#include <deal.II/physics/notation.h>
+
+#include <Eigen/Eigenvalues>
+
 #include <array>
 
 namespace perideal
@@ -17,42 +21,60 @@ namespace perideal
              2. * mu * dealii::identity_tensor<dim>();
     }
 
-    /// Plane stress: the strains across the plane, (33, 23, 13), follow from vanishing stresses there and
-    /// are put into the stresses in the plane.
-    SymmetricTensor<4, 2> without_stress_across(const SymmetricTensor<4, 3> &solid)
+    SymmetricTensor<2, 3> embed(const SymmetricTensor<2, 2> &in_plane)
     {
-      const std::array<std::array<unsigned int, 2>, 3> across = {{{{2, 2}}, {{1, 2}}, {{0, 2}}}};
-      dealii::Tensor<2, 3>                             coupling;
-      for (unsigned int a = 0; a < 3; ++a)
-        for (unsigned int b = 0; b < 3; ++b)
-          // Off-diagonal strains count twice.
-          coupling[a][b] = (b == 0 ? 1. : 2.) * solid[across[a][0]][across[a][1]][across[b][0]][across[b][1]];
-      const dealii::Tensor<2, 3> inverse = dealii::invert(coupling);
-
-      SymmetricTensor<4, 2> result;
+      SymmetricTensor<2, 3> result;
       for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int j = i; j < 2; ++j)
-          for (unsigned int k = 0; k < 2; ++k)
-            for (unsigned int l = k; l < 2; ++l)
-              {
-                double value = solid[i][j][k][l];
-                for (unsigned int a = 0; a < 3; ++a)
-                  for (unsigned int b = 0; b < 3; ++b)
-                    value -= (a == 0 ? 1. : 2.) * solid[i][j][across[a][0]][across[a][1]] * inverse[a][b] *
-                             solid[across[b][0]][across[b][1]][k][l];
-                result[i][j][k][l] = value;
-              }
+          result[i][j] = in_plane[i][j];
       return result;
     }
 
-    SymmetricTensor<4, 2> in_plane(const SymmetricTensor<4, 3> &solid)
+    /// Plane stress: the strains across the plane, (33, 23, 13), follow from vanishing stresses there.
+    SymmetricTensor<2, 3> without_stress_across(const SymmetricTensor<4, 3> &solid,
+                                                const SymmetricTensor<2, 2> &in_plane)
+    {
+      constexpr unsigned int      across[3][2] = {{2, 2}, {1, 2}, {0, 2}};
+      auto                        result       = embed(in_plane);
+      const SymmetricTensor<2, 3> held         = solid * result;
+      dealii::Tensor<2, 3>        coupling;
+      dealii::Tensor<1, 3>        stress;
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          stress[a] = held[across[a][0]][across[a][1]];
+          for (unsigned int b = 0; b < 3; ++b)
+            // Off-diagonal strains count twice.
+            coupling[a][b] =
+              (b == 0 ? 1. : 2.) * solid[across[a][0]][across[a][1]][across[b][0]][across[b][1]];
+        }
+      const dealii::Tensor<1, 3> strain = dealii::invert(coupling) * stress;
+      for (unsigned int a = 0; a < 3; ++a)
+        result[across[a][0]][across[a][1]] = -strain[a];
+      return result;
+    }
+
+    SymmetricTensor<2, 3> in_space(const SymmetricTensor<4, 3> &solid,
+                                   const PlaneAssumption        assumption,
+                                   const SymmetricTensor<2, 2> &strain)
+    {
+      return assumption == PlaneAssumption::plane_stress ? without_stress_across(solid, strain) :
+                                                           embed(strain);
+    }
+
+    /// What the plane assumption leaves: the stresses in the plane under each strain in it.
+    SymmetricTensor<4, 2> reduce(const SymmetricTensor<4, 3> &solid, const PlaneAssumption assumption)
     {
       SymmetricTensor<4, 2> result;
-      for (unsigned int i = 0; i < 2; ++i)
-        for (unsigned int j = i; j < 2; ++j)
-          for (unsigned int k = 0; k < 2; ++k)
-            for (unsigned int l = k; l < 2; ++l)
-              result[i][j][k][l] = solid[i][j][k][l];
+      for (unsigned int k = 0; k < 2; ++k)
+        for (unsigned int l = k; l < 2; ++l)
+          {
+            SymmetricTensor<2, 2> strain;
+            strain[k][l]                       = k == l ? 1. : 0.5;
+            const SymmetricTensor<2, 3> stress = solid * in_space(solid, assumption, strain);
+            for (unsigned int i = 0; i < 2; ++i)
+              for (unsigned int j = i; j < 2; ++j)
+                result[i][j][k][l] = stress[i][j];
+          }
       return result;
     }
 
@@ -88,8 +110,7 @@ namespace perideal
     if constexpr (dim == 3)
       tensor = in_space;
     else
-      tensor =
-        assumption == PlaneAssumption::plane_stress ? without_stress_across(in_space) : in_plane(in_space);
+      tensor = reduce(in_space, assumption);
     // kappa = C_aabb/dim^2 and 2 mu = (C_abab - C_aabb/dim)/(dim(dim+1)/2 - 1).
     const auto   trace = traces(tensor);
     const double kappa = trace[0] / (dim * dim);
@@ -100,6 +121,30 @@ namespace perideal
       1e-12 * tensor.norm();
   }
 
+  template <int dim>
+  SymmetricTensor<2, 3> ElasticSolid<dim>::strain_in_space(const SymmetricTensor<2, dim> &strain) const
+  {
+    if constexpr (dim == 3)
+      return strain;
+    else
+      return in_space(solid, constants.assumption, strain);
+  }
+
+  template <int dim>
+  std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, dim> &tensor)
+  {
+    const auto      kelvin = dealii::Physics::Notation::Kelvin::to_matrix(tensor);
+    Eigen::MatrixXd matrix(kelvin.m(), kelvin.n());
+    for (unsigned int a = 0; a < kelvin.m(); ++a)
+      for (unsigned int b = 0; b < kelvin.n(); ++b)
+        matrix(a, b) = kelvin(a, b);
+    const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+    return {values.begin(), values.end()};
+  }
+
+  template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 2> &);
+  template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 3> &);
   template class ElasticSolid<2>;
   template class ElasticSolid<3>;
 } // namespace perideal

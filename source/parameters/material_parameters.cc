@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/parameters/inherited_parameter.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
 
@@ -14,19 +15,17 @@ namespace perideal
     void declare_properties(dealii::ParameterHandler &prm,
                             MaterialProperties       &properties,
                             const ParameterFile      &file,
-                            const bool                is_group)
+                            const std::string        &section)
     {
       const auto declare = [&](const std::string &name, double &value, const std::string &meaning) {
-        if (is_group)
-          {
-            const std::string inherited = file.value_of("Material/" + name, "");
-            if (Double().match(inherited))
-              value = std::stod(inherited);
-          }
-        prm.add_parameter(name, value, meaning, Double());
+        declare_inherited(prm, file, section, name, value, meaning, Double());
       };
-      declare("Young modulus", properties.young_modulus, "Young's modulus E > 0 [Pa]");
-      declare("Poisson ratio", properties.poisson_ratio, "Poisson's ratio, -1 < nu < 0.5 [-]");
+      properties.symmetry.declare(prm, file, section);
+      declare(
+        "Young modulus", properties.young_modulus, "Young's modulus E > 0 [Pa] of an isotropic material");
+      declare("Poisson ratio",
+              properties.poisson_ratio,
+              "Poisson's ratio, -1 < nu < 0.5 [-], of an isotropic material");
       declare("Density", properties.density, "Mass density > 0 [kg/m^3], of dynamics");
       declare("Fracture energy",
               properties.fracture_energy,
@@ -41,11 +40,13 @@ namespace perideal
                           const std::string        &section,
                           const std::string        &assumption)
     {
-      if (!(properties.young_modulus > 0))
+      properties.symmetry.check();
+      const bool is_isotropic = properties.symmetry.is_isotropic();
+      if (is_isotropic && !(properties.young_modulus > 0))
         throw InputError("Young's modulus must be positive")
           .parameter(section + "/Young modulus")
           .allowed("a number > 0");
-      if (!(properties.poisson_ratio > -1 && properties.poisson_ratio < 0.5))
+      if (is_isotropic && !(properties.poisson_ratio > -1 && properties.poisson_ratio < 0.5))
         throw InputError("Poisson's ratio is outside the range of a stable elastic solid")
           .parameter(section + "/Poisson ratio")
           .allowed("-1 < nu < 0.5")
@@ -76,28 +77,41 @@ namespace perideal
                       assumption,
                       "How a 2-D body stands in space; without meaning in 3-D",
                       dealii::Patterns::Selection("plane stress|plane strain"));
-    declare_properties(prm, body, file, false);
+    declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
         prm.enter_subsection(group);
-        declare_properties(prm, groups[group], file, true);
+        declare_properties(prm, groups[group], file, "Material/" + group);
         prm.leave_subsection();
       }
     prm.leave_subsection();
   }
 
-  void MaterialParameters::check() const
+  void MaterialParameters::check(const int dim) const
   {
-    check_properties(body, "Material", assumption);
+    const auto check = [&](const MaterialProperties &material, const std::string &section) {
+      check_properties(material, section, assumption);
+      if (dim == 2)
+        elastic_solid<2>(material);
+      else
+        elastic_solid<3>(material);
+    };
+    check(body, "Material");
     for (const auto &group : groups)
-      check_properties(group.second, "Material/" + group.first, assumption);
+      check(group.second, "Material/" + group.first);
   }
 
-  ElasticConstants MaterialParameters::elastic_constants(const MaterialProperties &material,
-                                                         const int                 dim) const
+  template <int dim>
+  ElasticSolid<dim> MaterialParameters::elastic_solid(const MaterialProperties &material) const
   {
     const PlaneAssumption plane =
       assumption == "plane strain" ? PlaneAssumption::plane_strain : PlaneAssumption::plane_stress;
-    return {material.young_modulus, material.poisson_ratio, dim == 3 ? PlaneAssumption::solid : plane};
+    const PlaneAssumption own = dim == 3 ? PlaneAssumption::solid : plane;
+    if (material.symmetry.is_isotropic())
+      return ElasticConstants{material.young_modulus, material.poisson_ratio, own};
+    return make_solid<dim>(material.symmetry, own);
   }
+
+  template ElasticSolid<2> MaterialParameters::elastic_solid(const MaterialProperties &) const;
+  template ElasticSolid<3> MaterialParameters::elastic_solid(const MaterialProperties &) const;
 } // namespace perideal

@@ -47,7 +47,7 @@ namespace perideal
     std::unique_ptr<Mesh<dim>>                           mesh;
     Loads<dim>                                           loads;
     std::vector<std::vector<dealii::types::boundary_id>> condition_boundaries;
-    ConstantsByMaterial                                  constants;
+    SolidsByMaterial<dim>                                solids;
 
     std::unique_ptr<Nodes<dim>>    nodes;
     std::vector<BoundaryFace<dim>> faces;

@@ -2,7 +2,7 @@
 #ifndef perideal_boundary_elastic_fit_h
 #define perideal_boundary_elastic_fit_h
 
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -17,10 +17,11 @@ namespace perideal
    * known of an elastic body around a point: displacements, tractions, and that
    * stresses are in equilibrium,
    *
-   *     mu lap u + (lambda + mu) grad div u + b = 0.
+   *     C_ipkq u_k,pq + b_i = 0.
    *
    * All equations are brought to the dimension of a displacement, with lengths in
-   * units of the scale and stresses in units of 2 mu. The equilibrium is what
+   * units of the scale and stresses in units of 2 mu, of the isotropic solid that is
+   * nearest. The equilibrium is what
    * makes a cubic of few data: it and the tractions of a free surface say how
    * strains vary with depth, which nodes at two depths do not.
    */
@@ -33,7 +34,7 @@ namespace perideal
     ElasticFit(const dealii::Point<dim>     &centre,
                const double                  scale,
                const dealii::Tensor<1, dim> &offset,
-               const ElasticConstants       &constants);
+               const ElasticSolid<dim>      &solid);
 
     /// u_component(point) = value [m].
     void add_displacement(const dealii::Point<dim> &point,
@@ -85,8 +86,9 @@ namespace perideal
     dealii::Point<dim>     centre;
     double                 scale;
     dealii::Tensor<1, dim> offset;
-    /// lambda/(2 mu) and 2 mu [Pa].
-    double lambda_ratio, twice_mu;
+    /// 2 mu [Pa], and C in units of it.
+    double                          twice_mu;
+    dealii::SymmetricTensor<4, dim> stiffness;
 
     std::vector<double> matrix, right_hand_side;
   };

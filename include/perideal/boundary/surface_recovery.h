@@ -47,7 +47,7 @@ namespace perideal
     /// @param boundaries of each condition, from resolve_boundaries()
     SurfaceRecovery(const Mesh<dim>                                            &mesh,
                     const CellGraph<dim>                                       &graph,
-                    const ConstantsByMaterial                                  &constants,
+                    const SolidsByMaterial<dim>                                &solids,
                     const Loads<dim>                                           &loads,
                     const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
                     const Held                                                  held);
@@ -75,7 +75,7 @@ namespace perideal
 
     const Mesh<dim>                                            &mesh;
     const CellGraph<dim>                                       &graph;
-    const ConstantsByMaterial                                  &constants;
+    const SolidsByMaterial<dim>                                &solids;
     const Loads<dim>                                           &loads;
     const std::vector<std::vector<dealii::types::boundary_id>> &boundaries;
     Held                                                        held;

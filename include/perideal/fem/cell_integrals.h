@@ -2,7 +2,7 @@
 #ifndef perideal_fem_cell_integrals_h
 #define perideal_fem_cell_integrals_h
 
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
@@ -34,7 +34,7 @@ namespace perideal
                   const double                 thickness);
 
     /// Stiffness matrix of a cell [N/m], indexed like the cell's unknowns.
-    void stiffness(const Cell &cell, const ElasticConstants &constants, dealii::FullMatrix<double> &matrix);
+    void stiffness(const Cell &cell, const ElasticSolid<dim> &solid, dealii::FullMatrix<double> &matrix);
 
     /// Adds the nodal forces [N] of a force per volume [N/m^3].
     void add_body_force(const Cell                                                              &cell,
@@ -52,6 +52,14 @@ namespace perideal
                       dealii::Vector<double> &forces);
 
   private:
+    /// Sums up, of each pair of shapes a <= b, int grad N_a (x) grad N_b dV [m].
+    void integrate_products(const Cell &cell);
+
+    /// The matrix from these integrals.
+    void isotropic_stiffness(const ElasticConstants &constants, dealii::FullMatrix<double> &matrix) const;
+    void anisotropic_stiffness(const dealii::SymmetricTensor<4, dim> &stiffness,
+                               dealii::FullMatrix<double>            &matrix) const;
+
     double                                     thickness;
     dealii::FEValues<dim>                      gradients;
     dealii::FEValues<dim>                      values;

@@ -5,7 +5,7 @@
 #include <perideal/base/types.h>
 #include <perideal/fem/cell_integrals.h>
 #include <perideal/mesh/mesh.h>
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/load_parameters.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -25,8 +25,9 @@ namespace perideal
   template <int dim>
   class PolynomialMultigrid;
 
-  /// Elastic constants by material id; every id of the mesh is listed.
-  using ConstantsByMaterial = std::map<dealii::types::material_id, ElasticConstants>;
+  /// Elastic solids by material id; every id of the mesh is listed.
+  template <int dim>
+  using SolidsByMaterial = std::map<dealii::types::material_id, ElasticSolid<dim>>;
 
   /**
    * deal.II's continuous finite elements for linear elasticity on the mesh of a
@@ -58,7 +59,7 @@ namespace perideal
     /// assembles matrix and right-hand side. Where the conditions leave a
     /// rigid-body motion free, as many vertex components are pinned to zero;
     /// removing the motion from the result is the caller's business. Collective.
-    void assemble(const ConstantsByMaterial &constants, const double time);
+    void assemble(const SolidsByMaterial<dim> &solids, const double time);
 
     /// Sets up the multigrid preconditioner of solve(), which does so itself
     /// when it was not done. Collective.
@@ -153,9 +154,9 @@ namespace perideal
     std::unique_ptr<PolynomialMultigrid<dim>> polynomial_multigrid;
 
     /// As of the last assembly.
-    ConstantsByMaterial constants;
-    double              time = 0;
-    unsigned int        pins = 0;
+    SolidsByMaterial<dim> solids;
+    double                time = 0;
+    unsigned int          pins = 0;
   };
 } // namespace perideal
 

@@ -2,7 +2,7 @@
 #ifndef perideal_materials_elastic_state_h
 #define perideal_materials_elastic_state_h
 
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -28,11 +28,10 @@ namespace perideal
     std::pair<double, double> principal_range() const;
   };
 
-  /// The state of an isotropic body under a strain. Plane stress: nothing pulls
+  /// The state of an elastic body under a strain. Plane stress: nothing pulls
   /// across the body; plane strain: nothing stretches across.
   template <int dim>
-  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain,
-                             const ElasticConstants                &constants);
+  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain, const ElasticSolid<dim> &solid);
 } // namespace perideal
 
 #endif

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <vector>
+
 namespace perideal
 {
   /**
@@ -31,6 +33,10 @@ namespace perideal
     /// C of the solid in space [Pa].
     const dealii::SymmetricTensor<4, 3> &stiffness_in_space() const { return solid; }
 
+    /// The strain in space under a strain of the problem's own dimension: of a two-dimensional body with
+    /// the components across it, which vanish in plane strain and leave no stress in plane stress.
+    dealii::SymmetricTensor<2, 3> strain_in_space(const dealii::SymmetricTensor<2, dim> &strain) const;
+
     bool is_isotropic() const { return has_no_direction; }
 
     /// The constants; of an anisotropic solid those of the isotropic one that is nearest in the sense of
@@ -45,6 +51,19 @@ namespace perideal
     dealii::SymmetricTensor<4, dim> tensor;
     bool                            has_no_direction = true;
   };
+
+  /// Eigenvalues, in ascending order, of a symmetric tensor of rank four as a map of symmetric tensors,
+  /// which are those of its matrix in Kelvin-Mandel form.
+  template <int dim>
+  std::vector<double> kelvin_eigenvalues(const dealii::SymmetricTensor<4, dim> &tensor);
+
+  /// The smallest eigenvalue of C [Pa] in the problem's own dimension; not positive: some strain costs no
+  /// work.
+  template <int dim>
+  double smallest_stiffness(const ElasticSolid<dim> &solid)
+  {
+    return kelvin_eigenvalues(solid.stiffness()).front();
+  }
 } // namespace perideal
 
 #endif

@@ -2,13 +2,13 @@
 #ifndef perideal_parameters_material_parameters_h
 #define perideal_parameters_material_parameters_h
 
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
+#include <perideal/parameters/elastic_symmetry.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
 #include <string>
-#include <vector>
 
 namespace perideal
 {
@@ -17,9 +17,11 @@ namespace perideal
   /// What one material is made of.
   struct MaterialProperties
   {
-    /// Young's modulus [Pa].
+    /// Symmetry, and the constants of all but isotropic materials.
+    ElasticSymmetry symmetry;
+    /// Young's modulus [Pa] of an isotropic material.
     double young_modulus = 70e9;
-    /// Poisson's ratio [-].
+    /// Poisson's ratio [-] of an isotropic material.
     double poisson_ratio = 0.33;
     /// Mass density [kg/m^3].
     double density = 2700.;
@@ -46,11 +48,14 @@ namespace perideal
     /// Declares the section, with a subsection for each the file has.
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
-    /// @throws InputError on values outside the physical range.
-    void check() const;
+    /// @throws InputError on values outside the physical range in @p dim dimensions, and on
+    ///   constants that are missing, too many or of no use.
+    void check(const int dim) const;
 
-    /// Elastic constants of a material in @p dim dimensions.
-    ElasticConstants elastic_constants(const MaterialProperties &material, const int dim) const;
+    /// What a material is in @p dim dimensions.
+    /// @throws InputError as check().
+    template <int dim>
+    ElasticSolid<dim> elastic_solid(const MaterialProperties &material) const;
   };
 } // namespace perideal
 

@@ -3,7 +3,7 @@
 #define perideal_tests_boundary_elastic_field_h
 
 #include <perideal/nodes/nodes.h>
-#include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/load_parameters.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -46,7 +46,8 @@ namespace elastic_field_test
   template <int dim>
   struct Field
   {
-    explicit Field(const double curvature)
+    explicit Field(const double curvature, const ElasticSolid<dim> &solid = constants<dim>())
+      : solid(solid)
     {
       for (int c = 0; c < dim; ++c)
         for (int d = 0; d < dim; ++d)
@@ -64,11 +65,7 @@ namespace elastic_field_test
     }
     dealii::SymmetricTensor<2, dim> stress(const dealii::Point<dim> &x) const
     {
-      const auto strain = symmetrize(gradient(x));
-      auto       result = 2. * constants<dim>().shear_modulus() * strain;
-      for (int d = 0; d < dim; ++d)
-        result[d][d] += constants<dim>().lame_lambda() * trace(strain);
-      return result;
+      return solid.stiffness() * symmetrize(gradient(x));
     }
 
     /// A function of space, at most quadratic, as a formula.
@@ -116,6 +113,7 @@ namespace elastic_field_test
       return result;
     }
 
+    ElasticSolid<dim>      solid;
     dealii::Tensor<2, dim> at_origin;
     dealii::Tensor<3, dim> slope;
   };

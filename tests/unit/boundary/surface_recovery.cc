@@ -3,7 +3,10 @@
 
 #include "bodies.h"
 #include "boundary/elastic_field.h"
+#include "solids.h"
 #include "testing.h"
+
+#include <array>
 
 using namespace perideal;
 using namespace elastic_field_test;
@@ -12,11 +15,11 @@ namespace
 {
   /// Recovers at all faces of a mesh and calls check(state).
   template <int dim, typename Function, typename Check>
-  void for_each_state(const Mesh<dim>           &mesh,
-                      const LoadParameters      &text,
-                      const ConstantsByMaterial &materials,
-                      const Function            &displacement,
-                      const Check               &check)
+  void for_each_state(const Mesh<dim>             &mesh,
+                      const LoadParameters        &text,
+                      const SolidsByMaterial<dim> &materials,
+                      const Function              &displacement,
+                      const Check                 &check)
   {
     const Nodes<dim>           nodes(mesh, NodeParameters{3.01});
     const CellGraph<dim>       graph(mesh, nodes);
@@ -29,16 +32,15 @@ namespace
   }
 
   template <int dim>
-  void expect_recovery(const double curvature, const double tolerance)
+  void expect_recovery(const Field<dim> &field, const double tolerance)
   {
-    const Field<dim> field(curvature);
     for (const auto &mesh : test::make_boxes<dim>())
       {
         unsigned int n_faces = 0;
         for_each_state(
           *mesh,
           field.loads(),
-          {{0, constants<dim>()}},
+          {{0, field.solid}},
           [&](const auto &x) { return field.displacement(x); },
           [&](const SurfaceState<dim> &state) {
             ++n_faces;
@@ -63,12 +65,12 @@ namespace
     for (const auto &cell : mesh->triangulation.active_cell_iterators())
       if (!cell->is_artificial())
         cell->set_material_id(cell->center()[0] > 0.5);
-    mesh->material_ids            = {0, 1};
-    ConstantsByMaterial materials = {{0, constants<dim>()}, {1, constants<dim>()}};
-    materials.at(1).young_modulus *= 100.;
+    mesh->material_ids                        = {0, 1};
+    std::array<ElasticConstants, 2> materials = {{constants<dim>(), constants<dim>()}};
+    materials[1].young_modulus *= 100.;
     const double pull   = 1e7;
     const auto   strain = [&](const unsigned int m) {
-      return pull / (materials.at(m).lame_lambda() + 2. * materials.at(m).shear_modulus());
+      return pull / (materials[m].lame_lambda() + 2. * materials[m].shear_modulus());
     };
     LoadParameters text;
     for (unsigned int id = 0; id < 2 * dim; ++id)
@@ -84,7 +86,7 @@ namespace
     for_each_state(
       *mesh,
       text,
-      materials,
+      {{0, materials[0]}, {1, materials[1]}},
       [&](const dealii::Point<dim> &x) {
         dealii::Tensor<1, dim> u;
         u[0] = strain(0) * std::min(x[0], 0.5) + strain(1) * std::max(x[0] - 0.5, 0.);
@@ -140,13 +142,18 @@ namespace
 
 TEST(SurfaceRecovery, IsExactForLinearFields)
 {
-  expect_recovery<2>(0., 1e-10);
-  expect_recovery<3>(0., 1e-10);
+  expect_recovery(Field<2>(0.), 1e-10);
+  expect_recovery(Field<3>(0.), 1e-10);
 }
 TEST(SurfaceRecovery, IsExactForQuadraticFieldsAndTheirLoads)
 {
-  expect_recovery<2>(1., 1e-8);
-  expect_recovery<3>(1., 1e-8);
+  expect_recovery(Field<2>(1.), 1e-8);
+  expect_recovery(Field<3>(1.), 1e-8);
+}
+TEST(SurfaceRecovery, IsExactForAnisotropicSolids)
+{
+  expect_recovery(Field<2>(1., test::solid_without_symmetry<2>()), 1e-8);
+  expect_recovery(Field<3>(1., test::solid_without_symmetry<3>()), 1e-8);
 }
 TEST(SurfaceRecovery, KeepsMaterialsApart)
 {

@@ -60,9 +60,9 @@ namespace perideal::test
       const Loads<2> loads = uniaxial_tension<2>();
       ElasticFem<2>  fem(mesh, loads);
       // Without lateral contraction the halves do not disturb one another.
-      fem.assemble(
-        {{3, {100e9, 0., PlaneAssumption::plane_stress}}, {7, {200e9, 0., PlaneAssumption::plane_stress}}},
-        0.);
+      const ElasticConstants soft = {100e9, 0., PlaneAssumption::plane_stress},
+                             hard = {200e9, 0., PlaneAssumption::plane_stress};
+      fem.assemble({{3, soft}, {7, hard}}, 0.);
       fem.solve(1e-13);
       const auto exact = [](const dealii::Point<2> &point) {
         dealii::Tensor<1, 2> value;

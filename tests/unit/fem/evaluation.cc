@@ -91,11 +91,11 @@ namespace perideal::test
       for (const auto &boundary : mesh->boundary_names)
         conditions.push_back(displacement(boundary.first, {"1e-3*(x+2*y)", "1e-3*(3*x-y)", ""}));
       const Loads<2>      loads = make_loads<2>(conditions);
-      ConstantsByMaterial constants;
+      SolidsByMaterial<2> solids;
       for (const auto material : mesh->material_ids)
-        constants[material] = elastic_constants(PlaneAssumption::plane_stress);
+        solids[material] = elastic_constants(PlaneAssumption::plane_stress);
       ElasticFem<2> fem(*mesh, loads, 2, 2);
-      fem.assemble(constants, 0.);
+      fem.assemble(solids, 0.);
       fem.solve(1e-12);
 
       std::vector<dealii::Point<2>> points;

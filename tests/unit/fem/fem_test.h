@@ -23,9 +23,9 @@ namespace perideal::test
     return {young_modulus, poisson_ratio, assumption};
   }
 
-  /// Constants of a plane-strain or solid body of one material.
+  /// Elasticity of a plane-strain or solid body of one material.
   template <int dim>
-  ConstantsByMaterial one_material()
+  SolidsByMaterial<dim> one_material()
   {
     return {{0, elastic_constants(dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid)}};
   }

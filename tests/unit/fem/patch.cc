@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "fem_test.h"
+#include "solids.h"
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -42,16 +43,15 @@ namespace perideal::test
       }
 
       /// The left side is held, the others carry the tractions of the linear displacement.
-      static std::vector<BoundaryConditionText> left_held_others_pulled()
+      static std::vector<BoundaryConditionText>
+      left_held_others_pulled(const ElasticSolid<dim> &solid = one_material<dim>().at(0))
       {
         dealii::SymmetricTensor<2, dim> strain;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
             strain[a][b] =
               1e-3 * ((a == b ? a + 1. : 0.) + 0.25 * ((a + 1) % dim == b) + 0.25 * ((b + 1) % dim == a));
-        const ElasticConstants constants = one_material<dim>().at(0);
-        const auto stress = constants.lame_lambda() * trace(strain) * dealii::unit_symmetric_tensor<dim>() +
-                            2. * constants.shear_modulus() * strain;
+        const dealii::SymmetricTensor<2, dim> stress = solid.stiffness() * strain;
 
         std::vector<BoundaryConditionText> conditions = {displacement("left", expressions())};
         for (int side = 1; side < 2 * dim; ++side)
@@ -65,11 +65,13 @@ namespace perideal::test
         return conditions;
       }
 
-      static double error(const Mesh<dim> &mesh, const std::vector<BoundaryConditionText> &conditions)
+      static double error(const Mesh<dim>                          &mesh,
+                          const std::vector<BoundaryConditionText> &conditions,
+                          const ElasticSolid<dim>                  &solid = one_material<dim>().at(0))
       {
         const Loads<dim> loads = make_loads<dim>(conditions);
         ElasticFem<dim>  fem(mesh, loads);
-        fem.assemble(one_material<dim>(), 0.);
+        fem.assemble({{0, solid}}, 0.);
         fem.solve(1e-13);
         return relative_error(fem, linear_displacement);
       }
@@ -92,6 +94,18 @@ namespace perideal::test
       make_unit_box(mesh, 5);
       distort(mesh);
       EXPECT_LT(this->error(mesh, this->left_held_others_pulled()), tolerance);
+    }
+
+    TYPED_TEST(PatchTest, of_a_solid_without_symmetry)
+    {
+      Mesh<TypeParam::value> mesh(MPI_COMM_WORLD);
+      make_unit_box(mesh, 5);
+      distort(mesh);
+      const auto solid = solid_without_symmetry<TypeParam::value>();
+      ASSERT_FALSE(solid.is_isotropic());
+      // Measured: up to 8e-14.
+      EXPECT_LT(this->error(mesh, this->left_held_others_pulled(solid), solid), 1e-12);
+      EXPECT_LT(this->error(mesh, this->all_sides_held(), solid), 1e-12);
     }
 
     TYPED_TEST(PatchTest, hanging_nodes_with_tractions)

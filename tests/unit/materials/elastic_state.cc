@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/elastic_state.h>
 
+#include "solids.h"
+
 #include <gtest/gtest.h>
 
 using namespace perideal;
@@ -52,16 +54,18 @@ TEST(ElasticState, InSpace)
   stress[2][2] = 5e6;
   stress[1][2] = -4e6;
   stress[0][2] = 1e6;
-  expect_state(
-    elastic_state<3>(strain_of(stress), {young, nu, PlaneAssumption::solid}), stress, strain_of(stress));
+  expect_state(elastic_state<3>(strain_of(stress), ElasticConstants{young, nu, PlaneAssumption::solid}),
+               stress,
+               strain_of(stress));
 }
 
 TEST(ElasticState, PlaneStressStretchesAcross)
 {
   const auto stress = plane_stress_of(3e6, -1e6, 2e6);
   const auto strain = strain_of(stress);
-  expect_state(
-    elastic_state<2>(in_plane(strain), {young, nu, PlaneAssumption::plane_stress}), stress, strain);
+  expect_state(elastic_state<2>(in_plane(strain), ElasticConstants{young, nu, PlaneAssumption::plane_stress}),
+               stress,
+               strain);
 }
 
 TEST(ElasticState, PlaneStrainPullsAcross)
@@ -70,8 +74,26 @@ TEST(ElasticState, PlaneStrainPullsAcross)
   stress[2][2]      = nu * 2e6;
   const auto strain = strain_of(stress);
   EXPECT_NEAR(strain[2][2], 0., 1e-20);
+  expect_state(elastic_state<2>(in_plane(strain), ElasticConstants{young, nu, PlaneAssumption::plane_strain}),
+               stress,
+               strain);
+}
+
+TEST(ElasticState, OfAnySolid)
+{
+  const auto c = test::stiffness_without_symmetry();
+  // Plane stress: of all states in space the one without stress across the plane.
+  const auto stress = plane_stress_of(3e6, -1e6, 2e6);
+  const auto strain = dealii::invert(c) * stress;
+  EXPECT_GT(std::abs(strain[1][2]), 1e-3 * strain.norm());
   expect_state(
-    elastic_state<2>(in_plane(strain), {young, nu, PlaneAssumption::plane_strain}), stress, strain);
+    elastic_state(in_plane(strain), ElasticSolid<2>(c, PlaneAssumption::plane_stress)), stress, strain);
+  // Plane strain: the one without strain across it.
+  const auto flat = plane_stress_of(1e-3, -2e-3, 5e-4);
+  EXPECT_GT(std::abs((c * flat)[1][2]), 1e-3 * (c * flat).norm());
+  expect_state(
+    elastic_state(in_plane(flat), ElasticSolid<2>(c, PlaneAssumption::plane_strain)), c * flat, flat);
+  expect_state(elastic_state(strain, ElasticSolid<3>(c, PlaneAssumption::solid)), stress, strain);
 }
 
 TEST(ElasticState, EquivalentAndPrincipalStresses)
