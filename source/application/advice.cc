@@ -83,7 +83,8 @@ namespace perideal
           const std::string name     = scene.mesh->material_name(id);
           const double      smallest = smallest_stiffness(solid);
           if (smallest <= 0)
-            result.push_back("the stiffness of " + name + " is not positive definite: its smallest eigenvalue is " +
+            result.push_back("the stiffness of " + name +
+                             " is not positive definite: its smallest eigenvalue is " +
                              short_number(smallest) + " Pa, so that some strains set energy free");
           if (!parameters.model.is_tensor_involved() || !scene.model || smallest <= 0)
             continue;
@@ -91,14 +92,16 @@ namespace perideal
           const double waves  = smallest_wave_stiffness(*scene.model, solid, factor);
           const double bonds  = smallest_bond_stiffness(*scene.model, solid, factor);
           if (waves <= 0)
-            result.push_back("bonds of " + name + " are unstable at a horizon factor of " + short_number(factor) +
-                             ": short waves have negative stiffness, " + short_number(waves) +
-                             " times that of the solid. Enlarge Nodes/Horizon factor, or take Material/Form = "
-                             "consistent");
+            result.push_back(
+              "bonds of " + name + " are unstable at a horizon factor of " + short_number(factor) +
+              ": short waves have negative stiffness, " + short_number(waves) +
+              " times that of the solid. Enlarge Nodes/Horizon factor, or take Material/Form = "
+              "consistent");
           else if (bonds < -1e-12)
-            result.push_back("bonds of " + name + " push sideways, " + short_number(-bonds) +
-                             " times what they pull along: stable inside the body, but perhaps not at its surfaces "
-                             "and cracks");
+            result.push_back(
+              "bonds of " + name + " push sideways, " + short_number(-bonds) +
+              " times what they pull along: stable inside the body, but perhaps not at its surfaces "
+              "and cracks");
         }
     }
   } // namespace

@@ -24,8 +24,7 @@ namespace perideal
 
     /// The bonds of one family on the lattice, both halves.
     template <int dim>
-    FamilyCoefficients
-    weigh(LinearModel<dim> &model, const ElasticSolid<dim> &solid, FamilyView<dim> &family)
+    FamilyCoefficients weigh(LinearModel<dim> &model, const ElasticSolid<dim> &solid, FamilyView<dim> &family)
     {
       AssertThrow(model.shape().bond_tensors, dealii::ExcInternalError());
       family.set_solid(solid);
@@ -127,9 +126,9 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                                \
-  template FamilyView<dim> lattice_family(const double);                                                         \
-  template double smallest_wave_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);          \
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template FamilyView<dim> lattice_family(const double);                                                     \
+  template double smallest_wave_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);      \
   template double smallest_bond_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -69,7 +69,9 @@ namespace perideal
     using Matrix             = Eigen::Matrix<double, n, n>;
     using Vector             = Eigen::Matrix<double, n, 1>;
     const auto kelvin        = [](const unsigned int p) { return p < dim ? 1. : std::sqrt(2.); };
-    const auto axes = [](const unsigned int p) { return SymmetricTensor<2, dim>::unrolled_to_component_indices(p); };
+    const auto axes          = [](const unsigned int p) {
+      return SymmetricTensor<2, dim>::unrolled_to_component_indices(p);
+    };
 
     Matrix m = Matrix::Zero();
     for (LocalIndex j = 0; j < family.size; ++j)

@@ -18,11 +18,11 @@ namespace perideal
     FamilyCoefficients           coefficients;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
-        view.reinit(*families,
-                    i,
-                    is_cut ?
-                      [&](const LocalIndex j) { return is_cut(families->position[i], families->position[j]); } :
-                      std::function<bool(const LocalIndex)>());
+        view.reinit(
+          *families,
+          i,
+          is_cut ? [&](const LocalIndex j) { return is_cut(families->position[i], families->position[j]); } :
+                   std::function<bool(const LocalIndex)>());
         view.set_solid(solid_of(families->material[i]));
         coefficients.resize(view.size, shape);
         model.compute(view, coefficients);

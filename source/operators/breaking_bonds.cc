@@ -84,8 +84,7 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::set_critical_stretch(
-    const typename BondForce<dim>::CriticalStretch &stretch)
+  void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch)
   {
     critical_stretch.assign(bonds.n_slots(), never);
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
@@ -115,9 +114,7 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::lose(const BondIndex      slot,
-                                                         const LocalIndex     i,
-                                                         std::vector<double> &volume) const
+  void BreakingBonds<dim>::lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const
   {
     const LocalIndex j = bonds.neighbour[slot];
     volume[i] += families->volume[j];
@@ -181,8 +178,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<double>
-  BreakingBonds<dim>::share_of_family(const std::vector<double> &volume) const
+  std::vector<double> BreakingBonds<dim>::share_of_family(const std::vector<double> &volume) const
   {
     std::vector<double> result(volume.size());
     for (std::size_t i = 0; i < result.size(); ++i)
@@ -194,10 +190,10 @@ namespace perideal
   std::size_t BreakingBonds<dim>::breaking_memory() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return bonds.memory_consumption() + memory_consumption(rest_length) + memory_consumption(critical_stretch) +
-           regions.memory_consumption() + 3 * memory_consumption(family_volume) +
-           this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
-           ghosted.memory_consumption();
+    return bonds.memory_consumption() + memory_consumption(rest_length) +
+           memory_consumption(critical_stretch) + regions.memory_consumption() +
+           3 * memory_consumption(family_volume) + this->lost.capacity() * sizeof(this->lost[0]) +
+           2 * position.size() * sizeof(NodeRecord) + ghosted.memory_consumption();
   }
 
   template class BreakingBonds<2>;

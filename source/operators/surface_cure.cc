@@ -20,8 +20,7 @@ namespace perideal
     const CellGraph<dim> &graph = gradient->graph();
     for (LocalIndex i = 0; i < graph.n_owned(); ++i)
       if (defects.count(material(i)) == 0)
-        defects[material(i)] =
-          TensorInvolved<dim>::micromodulus_defect(solid_of(material(i)).stiffness());
+        defects[material(i)] = TensorInvolved<dim>::micromodulus_defect(solid_of(material(i)).stiffness());
     this->counts      = bonds->counts;
     this->reports     = bonds->reports;
     this->partitioner = graph.make_partitioner(dim);
@@ -35,8 +34,8 @@ namespace perideal
   {
     bonds->vmult(force, displacement);
 
-    const auto       &rows    = gradient->rows();
-    const LocalIndex  n_owned = rows.n_rows();
+    const auto      &rows    = gradient->rows();
+    const LocalIndex n_owned = rows.n_rows();
     std::copy(displacement.begin(), displacement.begin() + dim * n_owned, ghosted.begin());
     ghosted.update_ghost_values();
     forces = 0.;

@@ -34,8 +34,7 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  TensorForce<dim>::break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin)
+  void TensorForce<dim>::break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin)
   {
     for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
       if (margin[lane] < 0)

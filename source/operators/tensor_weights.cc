@@ -30,10 +30,10 @@ namespace perideal
   template <int dim>
   void TensorWeights<dim>::add_far_ends()
   {
-    const Families<dim>              &families = *this->families;
-    std::vector<std::vector<double>>  far_values(this->n_components);
-    std::vector<const double *>       near;
-    std::vector<double *>             far;
+    const Families<dim>             &families = *this->families;
+    std::vector<std::vector<double>> far_values(this->n_components);
+    std::vector<const double *>      near;
+    std::vector<double *>            far;
     for (unsigned int p = 0; p < this->n_components; ++p)
       {
         far_values[p].assign(this->bonds.n_slots(), 0.);

@@ -33,19 +33,21 @@ namespace perideal
         declare_inherited(prm, file, section, parameter, value, meaning, pattern);
       };
     const List numbers(Double(), 0, List::max_int_value, ",");
-    declare("Symmetry",
-            name,
-            "Elastic symmetry. isotropic: from Young modulus and Poisson ratio. cubic, transversely isotropic "
-            "(about axis 1, the fibre), orthotropic: from Young moduli, Poisson ratios and Shear moduli. "
-            "anisotropic: from Stiffness",
-            Selection("isotropic|cubic|transversely isotropic|orthotropic|anisotropic"));
-    declare("Young moduli",
-            young_moduli,
-            "Young's moduli > 0 [Pa] in the material's own axes 1, 2, 3. cubic: E; transversely isotropic: E1, "
-            "E2; orthotropic: E1, E2, E3. Plane stress may leave out the constants across the plane "
-            "(orthotropic: E1, E2; nu12; G12; transversely isotropic: E1, E2; nu12; G12): stretches are then "
-            "not coupled across it, and the strain zz, which is not known, is given as 0",
-            numbers);
+    declare(
+      "Symmetry",
+      name,
+      "Elastic symmetry. isotropic: from Young modulus and Poisson ratio. cubic, transversely isotropic "
+      "(about axis 1, the fibre), orthotropic: from Young moduli, Poisson ratios and Shear moduli. "
+      "anisotropic: from Stiffness",
+      Selection("isotropic|cubic|transversely isotropic|orthotropic|anisotropic"));
+    declare(
+      "Young moduli",
+      young_moduli,
+      "Young's moduli > 0 [Pa] in the material's own axes 1, 2, 3. cubic: E; transversely isotropic: E1, "
+      "E2; orthotropic: E1, E2, E3. Plane stress may leave out the constants across the plane "
+      "(orthotropic: E1, E2; nu12; G12; transversely isotropic: E1, E2; nu12; G12): stretches are then "
+      "not coupled across it, and the strain zz, which is not known, is given as 0",
+      numbers);
     declare("Poisson ratios",
             poisson_ratios,
             "Poisson's ratios [-]; nu_ij is minus the strain along j over that along i in a pull along i, so "
@@ -56,22 +58,24 @@ namespace perideal
             shear_moduli,
             "Shear moduli > 0 [Pa]. cubic: G; transversely isotropic: G12; orthotropic: G12, G13, G23",
             numbers);
-    declare("Stiffness",
-            stiffness,
-            "All constants [Pa] of symmetry anisotropic: the upper triangle of the stiffness matrix, row by "
-            "row, 21 numbers; in 2-D also 6 numbers, which are already those of the plane (Q11, Q12, Q16, Q22, "
-            "Q26, Q66)",
-            numbers);
+    declare(
+      "Stiffness",
+      stiffness,
+      "All constants [Pa] of symmetry anisotropic: the upper triangle of the stiffness matrix, row by "
+      "row, 21 numbers; in 2-D also 6 numbers, which are already those of the plane (Q11, Q12, Q16, Q22, "
+      "Q26, Q66)",
+      numbers);
     declare("Voigt order",
             voigt_order,
             "Stresses that the rows of a Stiffness of 21 numbers stand for",
             Selection("11 22 33 23 13 12|11 22 33 12 13 23|11 22 33 12 23 13"));
-    declare("Orientation",
-            orientation,
-            "How the material's axes stand in the body [degrees]. One number: angle from x to axis 1, about z "
-            "(the fibre angle); three (3-D): Euler angles about z, then the new x, then the new z; none: the "
-            "body's axes",
-            numbers);
+    declare(
+      "Orientation",
+      orientation,
+      "How the material's axes stand in the body [degrees]. One number: angle from x to axis 1, about z "
+      "(the fibre angle); three (3-D): Euler angles about z, then the new x, then the new z; none: the "
+      "body's axes",
+      numbers);
   }
 
   void ElasticSymmetry::check() const

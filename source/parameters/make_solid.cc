@@ -88,9 +88,10 @@ namespace perideal
       const bool is_plane = symmetry.name != "cubic" && names_in_plane.all_fit(symmetry);
       if (is_plane && assumption == PlaneAssumption::plane_stress)
         return true;
-      const auto fits      = in_space.fit(symmetry);
-      const auto misfit    = [&](const char *parameter, const Numbers &given, const std::string &names) {
-        return complaint("the " + symmetry.name + " symmetry needs other constants", symmetry, parameter, given)
+      const auto fits   = in_space.fit(symmetry);
+      const auto misfit = [&](const char *parameter, const Numbers &given, const std::string &names) {
+        return complaint(
+                 "the " + symmetry.name + " symmetry needs other constants", symmetry, parameter, given)
           .allowed(names)
           .hint(is_plane ? "only plane stress can do without the constants across the plane" : "");
       };
@@ -120,11 +121,8 @@ namespace perideal
         return {{{e[0], e[0], e[0]}}, nu[0], nu[0], nu[0], {{1. / g[0], 1. / g[0], 1. / g[0]}}};
       if (symmetry.name == "transversely isotropic")
         // Across the fibre it is isotropic.
-        return {{{e[0], e[1], e[1]}},
-                nu[0],
-                nu[0],
-                nu[1],
-                {{1. / g[0], 1. / g[0], 2. * (1. + nu[1]) / e[1]}}};
+        return {
+          {{e[0], e[1], e[1]}}, nu[0], nu[0], nu[1], {{1. / g[0], 1. / g[0], 2. * (1. + nu[1]) / e[1]}}};
       return {{{e[0], e[1], e[2]}}, nu[0], nu[1], nu[2], {{1. / g[0], 1. / g[1], 1. / g[2]}}};
     }
 
@@ -134,10 +132,11 @@ namespace perideal
       SymmetricTensor<4, 3> result;
       for (unsigned int i = 0; i < 3; ++i)
         result[i][i][i][i] = 1. / constants.young[i];
-      const auto couple = [&](const unsigned int i, const unsigned int j, const double nu, const double shear) {
-        result[i][i][j][j] = result[j][j][i][i] = -nu / constants.young[i];
-        result[i][j][i][j]                      = shear / 4.;
-      };
+      const auto couple =
+        [&](const unsigned int i, const unsigned int j, const double nu, const double shear) {
+          result[i][i][j][j] = result[j][j][i][i] = -nu / constants.young[i];
+          result[i][j][i][j]                      = shear / 4.;
+        };
       couple(0, 1, constants.nu12, constants.shear_compliance[0]);
       couple(0, 2, constants.nu13, constants.shear_compliance[1]);
       couple(1, 2, constants.nu23, constants.shear_compliance[2]);
@@ -164,7 +163,8 @@ namespace perideal
     {
       std::vector<std::array<unsigned int, 2>> result;
       for (const std::string &pair : dealii::Utilities::split_string_list(order, ' '))
-        result.push_back({{static_cast<unsigned int>(pair[0] - '1'), static_cast<unsigned int>(pair[1] - '1')}});
+        result.push_back(
+          {{static_cast<unsigned int>(pair[0] - '1'), static_cast<unsigned int>(pair[1] - '1')}});
       return result;
     }
 
@@ -174,7 +174,8 @@ namespace perideal
       const Numbers &given    = symmetry.stiffness;
       const bool     in_plane = dim == 2 && given.size() == 6;
       if (!in_plane && given.size() != 21)
-        throw complaint("the anisotropic symmetry needs another number of constants", symmetry, "Stiffness", given)
+        throw complaint(
+          "the anisotropic symmetry needs another number of constants", symmetry, "Stiffness", given)
           .allowed(dim == 2 ? "21 numbers, or the 6 of the plane [Pa]" : "21 numbers [Pa]");
       const auto            pairs = index_pairs(in_plane ? "11 22 12" : symmetry.voigt_order);
       SymmetricTensor<4, 3> result;
@@ -232,8 +233,9 @@ namespace perideal
             for (unsigned int b = a; b < 3; ++b)
               across[a][b] = c[pairs[a][0]][pairs[a][1]][pairs[b][0]][pairs[b][1]];
           if (!(dealii::eigenvalues(across)[2] > 1e-12 * c.norm()))
-            complain("plane stress takes out the stresses across the plane, and nothing resists strains there",
-                     "C33, C44 (23) and C55 (13) of a positive definite block");
+            complain(
+              "plane stress takes out the stresses across the plane, and nothing resists strains there",
+              "C33, C44 (23) and C55 (13) of a positive definite block");
         }
       const ElasticConstants mean = ElasticSolid<dim>(c, assumption).isotropic();
       if (!(mean.shear_modulus() > 0 && mean.bulk_modulus() > 0))
@@ -246,8 +248,8 @@ namespace perideal
   ElasticSolid<dim> make_solid(const ElasticSymmetry &symmetry, const PlaneAssumption assumption)
   {
     Assert(!symmetry.is_isotropic(), dealii::ExcMessage("an isotropic solid has no axes"));
-    const auto in_own_axes = symmetry.name == "anisotropic" ? from_stiffness<dim>(symmetry) :
-                                                              from_constants(symmetry, assumption);
+    const auto in_own_axes =
+      symmetry.name == "anisotropic" ? from_stiffness<dim>(symmetry) : from_constants(symmetry, assumption);
     const auto turned =
       dealii::Physics::Transformations::basis_transformation(in_own_axes, rotation<dim>(symmetry));
     check_stiffness<dim>(symmetry, turned, assumption);

@@ -12,13 +12,13 @@ namespace perideal
   FamilyView<dim> lattice_family(const double horizon_factor);
 
   /**
-   * Whether waves on a regular mesh are stable: of all wave vectors k that the lattice can carry, the smallest
-   * ratio of the smallest eigenvalue of
+   * Whether waves on a regular mesh are stable: of all wave vectors k that the lattice can carry, the
+   * smallest ratio of the smallest eigenvalue of
    *
    *     sum_j 2 tensor_j (1 - cos k.xi_j)
    *
-   * to that of the solid's acoustic tensor C_ipkq k_p k_q [-]. 1 is the solid, less is usual for short waves, which
-   * bonds carry more slowly; below 0 waves grow.
+   * to that of the solid's acoustic tensor C_ipkq k_p k_q [-]. 1 is the solid, less is usual for short waves,
+   * which bonds carry more slowly; below 0 waves grow.
    * @param model one with bond tensors
    */
   template <int dim>
@@ -26,8 +26,9 @@ namespace perideal
                                  const ElasticSolid<dim> &solid,
                                  const double             horizon_factor);
 
-  /// Smallest eigenvalue of the bonds' tensors over the largest one [-]. Below 0, bonds push sideways where they
-  /// should pull: inside a regular mesh the others make up for it, at surfaces, where many are missing, they may not.
+  /// Smallest eigenvalue of the bonds' tensors over the largest one [-]. Below 0, bonds push sideways where
+  /// they should pull: inside a regular mesh the others make up for it, at surfaces, where many are missing,
+  /// they may not.
   template <int dim>
   double smallest_bond_stiffness(LinearModel<dim>        &model,
                                  const ElasticSolid<dim> &solid,

@@ -59,8 +59,8 @@ namespace perideal
     /// D M_0 of a full sphere, D[i][k][c][d] [Pa].
     static dealii::SymmetricTensor<4, dim> micromodulus(const dealii::SymmetricTensor<4, dim> &stiffness);
 
-    /// C_ipkq - S_ikpq, [i][p][k][q] [Pa]: the energy of a uniform gradient that the bonds lack, which is that
-    /// of a null Lagrangian (its Euler-Lagrange equations are empty) and so acts at surfaces only.
+    /// C_ipkq - S_ikpq, [i][p][k][q] [Pa]: the energy of a uniform gradient that the bonds lack, which is
+    /// that of a null Lagrangian (its Euler-Lagrange equations are empty) and so acts at surfaces only.
     static dealii::Tensor<4, dim> micromodulus_defect(const dealii::SymmetricTensor<4, dim> &stiffness);
 
   private:

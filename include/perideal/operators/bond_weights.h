@@ -33,7 +33,7 @@ namespace perideal
     /// @param is_gone of bonds between an owned node and another local one
     virtual void reweigh(const std::vector<LocalIndex>                                 &nodes,
                          LinearModel<dim>                                              &model,
-                         const SolidOf<dim>                                                &solid_of,
+                         const SolidOf<dim>                                            &solid_of,
                          const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) = 0;
 
     virtual std::size_t memory_consumption() const = 0;

@@ -21,10 +21,10 @@ namespace perideal
   class BreakingBonds : public BondForce<dim>
   {
   public:
-    void                  set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void                  judge_bonds(const bool judge) override { judges_bonds = judge; }
-    GlobalIndex           cut(const BondPredicate<dim> &is_cut) override;
-    GlobalIndex           n_broken_now() const override;
+    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void        judge_bonds(const bool judge) override { judges_bonds = judge; }
+    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
+    GlobalIndex n_broken_now() const override;
     std::vector<BondEnds> broken_bonds() const override;
     void                  restore_broken(const std::vector<BondEnds> &broken) override;
     const BondList       &bond_list() const override { return bonds; }

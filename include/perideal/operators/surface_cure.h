@@ -35,7 +35,7 @@ namespace perideal
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
-    void                                assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+    void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
 
     /// Trace of the gradient of the last vmult(), by owned node.
     std::vector<double> dilatation() const override { return traces; }

@@ -30,11 +30,8 @@ namespace perideal
     void                compute(NodalVector &force, const NodalVector &displacement) override;
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;
-    std::vector<double> dilatation() const override
-    {
-      return std::vector<double>(families->n_owned(), 0.);
-    }
-    std::size_t memory_consumption() const override;
+    std::vector<double> dilatation() const override { return std::vector<double>(families->n_owned(), 0.); }
+    std::size_t         memory_consumption() const override;
 
   private:
     using BreakingBonds<dim>::families;

@@ -26,12 +26,9 @@ namespace perideal
     void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
 
     /// The model has no such sums.
-    std::vector<double> dilatation() const override
-    {
-      return std::vector<double>(families->n_owned(), 0.);
-    }
-    bool        is_symmetric() const override { return weights->symmetric; }
-    std::size_t memory_consumption() const override;
+    std::vector<double> dilatation() const override { return std::vector<double>(families->n_owned(), 0.); }
+    bool                is_symmetric() const override { return weights->symmetric; }
+    std::size_t         memory_consumption() const override;
 
   private:
     void sum_forces() const;

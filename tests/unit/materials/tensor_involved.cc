@@ -67,16 +67,17 @@ namespace
                   double found = 0;
                   for (int a = 0; a < dim; ++a)
                     for (int b = 0; b < dim; ++b)
-                      found += 0.5 * d[i][k][a][b] *
-                               (delta(a, b) * delta(p, q) + delta(a, p) * delta(b, q) + delta(a, q) * delta(b, p));
+                      found +=
+                        0.5 * d[i][k][a][b] *
+                        (delta(a, b) * delta(p, q) + delta(a, p) * delta(b, q) + delta(a, q) * delta(b, p));
                   EXPECT_NEAR(found, 0.5 * (c[i][p][k][q] + c[i][q][k][p]), 1e-13 * size);
                 }
       }
   }
 
   template <int dim>
-  FamilyCoefficients
-  compute(const typename TensorInvolved<dim>::Moments moments, const FamilyView<dim> &family)
+  FamilyCoefficients compute(const typename TensorInvolved<dim>::Moments moments,
+                             const FamilyView<dim>                      &family)
   {
     TensorInvolved<dim> model(moments, 1.);
     FamilyCoefficients  result;
@@ -89,8 +90,9 @@ namespace
   template <int dim>
   void expect_bond_based(const PlaneAssumption assumption)
   {
-    const ElasticSolid<dim> solid(ElasticConstants{70e9, BondBased<dim>::poisson_ratio(assumption), assumption});
-    FamilyView<dim>         family = lattice_family<dim>(3.01);
+    const ElasticSolid<dim> solid(
+      ElasticConstants{70e9, BondBased<dim>::poisson_ratio(assumption), assumption});
+    FamilyView<dim> family = lattice_family<dim>(3.01);
     family.set_solid(solid);
     BondBased<dim>     springs(1.);
     FamilyCoefficients expected;
@@ -107,8 +109,8 @@ namespace
         }
   }
 
-  /// sum_j tensor_ik xi_p xi_q = V S_ikpq: what the family makes of uniform second gradients, both halves of its
-  /// bonds taken together, is exact; returns the largest error relative to S.
+  /// sum_j tensor_ik xi_p xi_q = V S_ikpq: what the family makes of uniform second gradients, both halves of
+  /// its bonds taken together, is exact; returns the largest error relative to S.
   template <int dim>
   double error_of_second_gradients(const FamilyView<dim> &family, const FamilyCoefficients &coefficients)
   {
@@ -144,9 +146,10 @@ TEST(TensorInvolved, EqualsTable32)
   const auto          &q = solid.q;
   // The paper's tensor has the kernel 1/(pi d^3 h); its index 6 is our third.
   const auto   d          = 12. * TensorInvolved<2>::micromodulus(solid.stiffness);
-  const double table[][5] = {{1, 1, 9 * q[1][1] - 3 * q[3][3], 12 * q[1][3], 9 * q[3][3] - 3 * q[1][1]},
-                             {1, 2, 9 * q[1][3] - 3 * q[2][3], 6 * (q[1][2] + q[3][3]), 9 * q[2][3] - 3 * q[1][3]},
-                             {2, 2, 9 * q[3][3] - 3 * q[2][2], 12 * q[2][3], 9 * q[2][2] - 3 * q[3][3]}};
+  const double table[][5] = {
+    {1, 1, 9 * q[1][1] - 3 * q[3][3], 12 * q[1][3], 9 * q[3][3] - 3 * q[1][1]},
+    {1, 2, 9 * q[1][3] - 3 * q[2][3], 6 * (q[1][2] + q[3][3]), 9 * q[2][3] - 3 * q[1][3]},
+    {2, 2, 9 * q[3][3] - 3 * q[2][2], 12 * q[2][3], 9 * q[2][2] - 3 * q[3][3]}};
   for (const auto &row : table)
     {
       const int i = row[0] - 1, k = row[1] - 1;
@@ -175,61 +178,61 @@ TEST(TensorInvolved, EqualsTable52WithoutItsMisprints)
   const RandomSolid<3> solid(11);
   const auto          &q = solid.q;
   const auto           d = 15. * TensorInvolved<3>::micromodulus(solid.stiffness);
-  // Rows (i, k), columns (c, d) = 11, 12, 13, 22, 23, 33. Entries corrected: 11,11; 11,13; 21,23; 21,33; 31,11;
-  // 31,22; 22,22; 32,12; 33,22; 33,33.
+  // Rows (i, k), columns (c, d) = 11, 12, 13, 22, 23, 33. Entries corrected: 11,11; 11,13; 21,23; 21,33;
+  // 31,11; 31,22; 22,22; 32,12; 33,22; 33,33.
   struct Row
   {
     int    i, k;
     double value[6];
   };
-  const Row table[] = {{1,
-                        1,
-                        {3 * (4 * q[1][1] - q[4][4] - q[5][5]),
-                         15 * q[1][4],
-                         15 * q[1][5],
-                         3 * (4 * q[4][4] - q[1][1] - q[5][5]),
-                         15 * q[4][5],
-                         3 * (4 * q[5][5] - q[1][1] - q[4][4])}},
-                       {2,
-                        1,
-                        {3 * (4 * q[1][4] - q[2][4] - q[5][6]),
-                         7.5 * (q[1][2] + q[4][4]),
-                         7.5 * (q[1][6] + q[4][5]),
-                         3 * (4 * q[2][4] - q[1][4] - q[5][6]),
-                         7.5 * (q[4][6] + q[2][5]),
-                         3 * (4 * q[5][6] - q[2][4] - q[1][4])}},
-                       {3,
-                        1,
-                        {3 * (4 * q[1][5] - q[4][6] - q[3][5]),
-                         7.5 * (q[1][6] + q[4][5]),
-                         7.5 * (q[1][3] + q[5][5]),
-                         3 * (4 * q[4][6] - q[1][5] - q[3][5]),
-                         7.5 * (q[3][4] + q[5][6]),
-                         3 * (4 * q[3][5] - q[1][5] - q[4][6])}},
-                       {2,
-                        2,
-                        {3 * (4 * q[4][4] - q[2][2] - q[6][6]),
-                         15 * q[2][4],
-                         15 * q[4][6],
-                         3 * (4 * q[2][2] - q[4][4] - q[6][6]),
-                         15 * q[2][6],
-                         3 * (4 * q[6][6] - q[2][2] - q[4][4])}},
-                       {3,
-                        2,
-                        {3 * (4 * q[4][5] - q[2][6] - q[3][6]),
-                         7.5 * (q[4][6] + q[2][5]),
-                         7.5 * (q[3][4] + q[5][6]),
-                         3 * (4 * q[2][6] - q[4][5] - q[3][6]),
-                         7.5 * (q[2][3] + q[6][6]),
-                         3 * (4 * q[3][6] - q[4][5] - q[2][6])}},
-                       {3,
-                        3,
-                        {3 * (4 * q[5][5] - q[6][6] - q[3][3]),
-                         15 * q[5][6],
-                         15 * q[3][5],
-                         3 * (4 * q[6][6] - q[5][5] - q[3][3]),
-                         15 * q[3][6],
-                         3 * (4 * q[3][3] - q[5][5] - q[6][6])}}};
+  const Row table[]      = {{1,
+                             1,
+                             {3 * (4 * q[1][1] - q[4][4] - q[5][5]),
+                              15 * q[1][4],
+                              15 * q[1][5],
+                              3 * (4 * q[4][4] - q[1][1] - q[5][5]),
+                              15 * q[4][5],
+                              3 * (4 * q[5][5] - q[1][1] - q[4][4])}},
+                            {2,
+                             1,
+                             {3 * (4 * q[1][4] - q[2][4] - q[5][6]),
+                              7.5 * (q[1][2] + q[4][4]),
+                              7.5 * (q[1][6] + q[4][5]),
+                              3 * (4 * q[2][4] - q[1][4] - q[5][6]),
+                              7.5 * (q[4][6] + q[2][5]),
+                              3 * (4 * q[5][6] - q[2][4] - q[1][4])}},
+                            {3,
+                             1,
+                             {3 * (4 * q[1][5] - q[4][6] - q[3][5]),
+                              7.5 * (q[1][6] + q[4][5]),
+                              7.5 * (q[1][3] + q[5][5]),
+                              3 * (4 * q[4][6] - q[1][5] - q[3][5]),
+                              7.5 * (q[3][4] + q[5][6]),
+                              3 * (4 * q[3][5] - q[1][5] - q[4][6])}},
+                            {2,
+                             2,
+                             {3 * (4 * q[4][4] - q[2][2] - q[6][6]),
+                              15 * q[2][4],
+                              15 * q[4][6],
+                              3 * (4 * q[2][2] - q[4][4] - q[6][6]),
+                              15 * q[2][6],
+                              3 * (4 * q[6][6] - q[2][2] - q[4][4])}},
+                            {3,
+                             2,
+                             {3 * (4 * q[4][5] - q[2][6] - q[3][6]),
+                              7.5 * (q[4][6] + q[2][5]),
+                              7.5 * (q[3][4] + q[5][6]),
+                              3 * (4 * q[2][6] - q[4][5] - q[3][6]),
+                              7.5 * (q[2][3] + q[6][6]),
+                              3 * (4 * q[3][6] - q[4][5] - q[2][6])}},
+                            {3,
+                             3,
+                             {3 * (4 * q[5][5] - q[6][6] - q[3][3]),
+                              15 * q[5][6],
+                              15 * q[3][5],
+                              3 * (4 * q[6][6] - q[5][5] - q[3][3]),
+                              15 * q[3][6],
+                              3 * (4 * q[3][3] - q[5][5] - q[6][6])}}};
   const int column[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
   for (const Row &row : table)
     for (unsigned int n = 0; n < 6; ++n)
@@ -294,7 +297,8 @@ TEST(Lattice, UnstableRangesAreThoseOfTheory)
   EXPECT_GT(plate(0.49, 3.), 0.);
   const auto block = [](const double nu, const double horizon_factor) {
     TensorInvolved<3> model(TensorInvolved<3>::Moments::sphere, 1.);
-    return smallest_wave_stiffness<3>(model, ElasticConstants{1., nu, PlaneAssumption::solid}, horizon_factor);
+    return smallest_wave_stiffness<3>(
+      model, ElasticConstants{1., nu, PlaneAssumption::solid}, horizon_factor);
   };
   EXPECT_GT(block(0.46, 3.), 0.);
   EXPECT_LT(block(0.48, 3.), 0.);

@@ -14,8 +14,8 @@ namespace
 {
   using Stiffness = dealii::SymmetricTensor<4, 3>;
   // Graphite-epoxy.
-  constexpr double E1 = 144.8e9, E2 = 11.7e9, nu12 = 0.21, G12 = 9.66e9, E3 = 9e9, nu13 = 0.3, nu23 = 0.4, G13 = 6e9,
-                   G23 = 3e9;
+  constexpr double E1 = 144.8e9, E2 = 11.7e9, nu12 = 0.21, G12 = 9.66e9, E3 = 9e9, nu13 = 0.3, nu23 = 0.4,
+                   G13 = 6e9, G23 = 3e9;
   const std::string in_plane =
     "set Young moduli = 144.8e9, 11.7e9\n set Poisson ratios = 0.21\n set Shear moduli = 9.66e9\n";
   const std::string nine = "set Symmetry = orthotropic\n set Young moduli = 144.8e9, 11.7e9, 9e9\n"
@@ -100,7 +100,7 @@ TEST(ElasticSymmetry, OrthotropicStrainsAsTheConstantsSay)
 
 TEST(ElasticSymmetry, PlaneStressIsThatOfLaminates)
 {
-  const auto                q = closed_form();
+  const auto                    q = closed_form();
   dealii::SymmetricTensor<4, 2> exact;
   exact[0][0][0][0] = q.q11;
   exact[1][1][1][1] = q.q22;
@@ -129,7 +129,8 @@ TEST(ElasticSymmetry, PlaneStrainIsThePlaneOfTheSolid)
 
 TEST(ElasticSymmetry, IsotropicIsAmongTheOthers)
 {
-  const std::string moduli = "set Young moduli = 70e9\n set Poisson ratios = 0.25\n set Shear moduli = 28e9\n";
+  const std::string moduli =
+    "set Young moduli = 70e9\n set Poisson ratios = 0.25\n set Shear moduli = 28e9\n";
   const std::string twice =
     "set Young moduli = 70e9, 70e9\n set Poisson ratios = 0.25, 0.25\n set Shear moduli = 28e9\n";
   const std::string isotropic = "set Young modulus = 70e9\n set Poisson ratio = 0.25\n";
@@ -192,7 +193,8 @@ TEST(ElasticSymmetry, QuarterTurnsSwapAxes)
   EXPECT_NEAR(c[0][0][0][0], own[2][2][2][2], 1e-13 * own.norm());
   EXPECT_NEAR(c[1][2][1][2], G12, 1e-13 * own.norm());
   // The last one is about axis 3 itself, which stands along x now.
-  EXPECT_NEAR(solid<3>(nine + turned("90, 90, 90")).stiffness()[2][2][2][2], own[0][0][0][0], 1e-13 * own.norm());
+  EXPECT_NEAR(
+    solid<3>(nine + turned("90, 90, 90")).stiffness()[2][2][2][2], own[0][0][0][0], 1e-13 * own.norm());
 }
 
 TEST(ElasticSymmetry, TurnsKeepEigenvaluesAndTurnBack)
@@ -219,7 +221,8 @@ TEST(ElasticSymmetry, StiffnessInThreeOrders)
   std::string numbers = "set Symmetry = anisotropic\n set Stiffness = ";
   for (int row = 1; row <= 6; ++row)
     for (int column = row; column <= 6; ++column)
-      numbers += (row + column > 2 ? ", " : "") + std::to_string(10 * row + column + (row == column ? 200 : 0));
+      numbers +=
+        (row + column > 2 ? ", " : "") + std::to_string(10 * row + column + (row == column ? 200 : 0));
   numbers += "\n";
   const auto usual    = solid<3>(numbers).stiffness();
   const auto appendix = solid<3>(numbers + "set Voigt order = 11 22 33 12 13 23\n").stiffness();
@@ -287,8 +290,7 @@ TEST(ElasticSymmetry, GroupsInheritWhatTheyDoNotGive)
     return material.elastic_solid<3>(material.groups.at(group)).stiffness();
   };
   expect_equal(of("core"), solid<3>(nine + turned("-30")).stiffness());
-  expect_equal(of("glue"),
-               ElasticSolid<3>(ElasticConstants{3e9, 0.33, PlaneAssumption::solid}).stiffness());
+  expect_equal(of("glue"), ElasticSolid<3>(ElasticConstants{3e9, 0.33, PlaneAssumption::solid}).stiffness());
   EXPECT_EQ(material.groups.at("ply").symmetry.orientation.at(0), 33.333333333333336);
   EXPECT_EQ(material.groups.at("ply").symmetry.shear_moduli.at(2), 3.123456789012345e9);
 }
@@ -298,17 +300,20 @@ TEST(ElasticSymmetry, RejectsWhatIsNoSolid)
   const auto expect = [](const std::string &lines, const int dim, const std::vector<std::string> &words) {
     expect_input_error([&] { read(lines, dim); }, words);
   };
-  const std::string orthotropic = "set Symmetry = orthotropic\n", anisotropic = "set Symmetry = anisotropic\n";
+  const std::string orthotropic = "set Symmetry = orthotropic\n",
+                    anisotropic = "set Symmetry = anisotropic\n";
   // Constants that are missing, or too many.
   expect(orthotropic, 2, {"Material/Young moduli", "nothing", "E1, E2, E3"});
   expect(orthotropic + in_plane, 3, {"Material/Young moduli", "E1, E2, E3", "only plane stress"});
-  expect(strain_across + orthotropic + in_plane, 2, {"Material/Young moduli", "E1, E2, E3", "only plane stress"});
+  expect(
+    strain_across + orthotropic + in_plane, 2, {"Material/Young moduli", "E1, E2, E3", "only plane stress"});
   expect("set Symmetry = cubic\n" + in_plane, 2, {"Material/Young moduli", "1.448e+11, 1.17e+10", "E [Pa]"});
   expect("set Symmetry = transversely isotropic\n set Young moduli = 2, 1\n set Poisson ratios = 0.1, 0.1\n"
          "set Shear moduli = 1, 1\n",
          3,
          {"Material/Shear moduli", "1, 1", "G12"});
-  expect(nine + "subsection core\n set Poisson ratios = 0.1\n end\n", 3, {"Material/core/Poisson ratios", "nu13"});
+  expect(
+    nine + "subsection core\n set Poisson ratios = 0.1\n end\n", 3, {"Material/core/Poisson ratios", "nu13"});
   expect(anisotropic, 2, {"Material/Stiffness", "nothing", "21 numbers, or the 6 of the plane"});
   expect(anisotropic + "set Stiffness = 1, 0, 0, 1, 0, 1\n", 3, {"Material/Stiffness", "21 numbers"});
   expect(nine + turned("10, 20, 30"), 2, {"Material/Orientation", "10, 20, 30", "one angle"});
@@ -323,7 +328,8 @@ TEST(ElasticSymmetry, RejectsWhatIsNoSolid)
   expect("set Symmetry = cubic\n set Young moduli = 1\n set Poisson ratios = 0.5\n set Shear moduli = 1\n",
          3,
          {"Material/Poisson ratios", "0.5", "positive definite"});
-  expect(anisotropic + "set Stiffness = 1, 9, 0, 1, 0, -3\n", 2, {"Material/Stiffness", "mean", "not positive"});
+  expect(
+    anisotropic + "set Stiffness = 1, 9, 0, 1, 0, -3\n", 2, {"Material/Stiffness", "mean", "not positive"});
   std::string flat = anisotropic + "set Stiffness = 9, 0, 0, 0, 0, 0";
   for (const char *row : {", 9, 0, 0, 0, 0", ", 0, 0, 0, 0", ", 9, 0, 0", ", 9, 0", ", 9\n"})
     flat += row;
