@@ -18,7 +18,10 @@ namespace perideal
     const Registry<Generator<dim>> &generators()
     {
       static const Registry<Generator<dim>> registry(
-        "Mesh/Generator", {{"box", &generate_box<dim>}, {"plate with hole", &generate_plate_with_hole<dim>}});
+        "Mesh/Generator",
+        {{"box", &generate_box<dim>},
+         {"plate with hole", &generate_plate_with_hole<dim>},
+         {"plate with hole grid", &generate_plate_with_hole_grid<dim>}});
       return registry;
     }
 

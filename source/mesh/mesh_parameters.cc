@@ -21,20 +21,26 @@ namespace perideal
                       "Built-in mesh, instead of a File: " + join_choices(generator_names()) +
                         ". Boundaries are named left, right (x), bottom, top (y), back, front (z), hole",
                       Anything());
-    prm.add_parameter("Cells",
-                      cells,
-                      "Cell counts of the generator [-]. box: along x, y(, z), default 10; plate with hole: "
-                      "around each of the eight blocks, radially(, layers in z), default 30, 32(, 4)",
-                      List(Integer(1, 1000000), 0, 3));
-    prm.add_parameter("Size",
-                      size,
-                      "Lengths of the generator's body [m]. box: along x, y(, z) from the origin, default 1; "
-                      "plate with hole: side(, depth in z), about the origin, default 1(, 0.1)",
-                      List(Double(0.), 0, 3));
-    prm.add_parameter("Hole radius",
-                      hole_radius,
-                      "Radius of the hole of the generator plate with hole, between 0 and half the side [m]",
-                      Double(0.));
+    prm.add_parameter(
+      "Cells",
+      cells,
+      "Cell counts of the generator [-]. box: along x, y(, z), default 10; plate with hole: "
+      "around each of the eight blocks, radially(, layers in z), default 30, 32(, 4); plate with hole "
+      "grid: along x, y(, z), default 100, 100(, 10)",
+      List(Integer(1, 1000000), 0, 3));
+    prm.add_parameter(
+      "Size",
+      size,
+      "Lengths of the generator's body [m]. box: along x, y(, z) from the origin, default 1; "
+      "plate with hole: side(, depth in z), about the origin, default 1(, 0.1); plate with hole grid: "
+      "along x, y(, z), about the origin, default 1, 1(, 0.1)",
+      List(Double(0.), 0, 3));
+    prm.add_parameter(
+      "Hole radius",
+      hole_radius,
+      "Radius of the hole of the generator plate with hole, between 0 and half the side; plate with "
+      "hole grid: cells whose centre is nearer to the z axis are left out [m]",
+      Double(0.));
     prm.add_parameter("Grading",
                       grading,
                       "Growth of the cell size of the generator plate with hole, from the hole outwards; "

@@ -36,6 +36,15 @@ namespace perideal
   template <int dim>
   void generate_plate_with_hole(const MeshParameters &parameters, CoarseMesh<dim> &mesh);
 
+  /**
+   * "plate with hole grid": plate about the origin in equal boxes, without those whose centre lies within
+   * the hole radius of the z axis, as a regular grid of nodes has a hole. Size: lengths in x, y(, z), default
+   * 1, 1(, 0.1) m. Cells: counts in x, y(, z), default 100, 100(, 10). Boundaries: those of the box and
+   * "hole", which has steps.
+   */
+  template <int dim>
+  void generate_plate_with_hole_grid(const MeshParameters &parameters, CoarseMesh<dim> &mesh);
+
   /// Cell counts of the parameters, or @p defaults where they give none.
   /// @param meaning of the numbers, for the message
   /// @throws InputError when their number differs from that of the defaults, or

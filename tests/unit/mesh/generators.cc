@@ -113,11 +113,53 @@ TEST(PlateWithHole, ExtrudesAboutTheOrigin)
     EXPECT_LE(std::abs(vertex[2]), 0.1 + 1e-15);
 }
 
+TEST(PlateWithHoleGrid, LeavesOutTheCellsInTheHole)
+{
+  MeshParameters parameters;
+  parameters.generator   = "plate with hole grid";
+  parameters.cells       = {150, 50};
+  parameters.size        = {0.15, 0.05};
+  parameters.hole_radius = 0.01;
+  const auto mesh        = create_mesh<2>(parameters, MPI_COMM_WORLD, "");
+  // Half-integers a, b with a^2 + b^2 <= 100 are 316.
+  EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 7184u);
+  EXPECT_EQ(mesh->description, "plate with hole grid, 7,184 quads");
+  EXPECT_NEAR(measure(mesh->triangulation), 7184e-6, 1e-15);
+  for (const char *side : {"left", "right"})
+    EXPECT_NEAR(boundary_measure(*mesh, side), 0.05, 1e-14) << side;
+  for (const char *side : {"bottom", "top"})
+    EXPECT_NEAR(boundary_measure(*mesh, side), 0.15, 1e-14) << side;
+  // A convex hole in steps is as long as the square around it.
+  EXPECT_NEAR(boundary_measure(*mesh, "hole"), 0.08, 1e-14);
+}
+
+TEST(PlateWithHoleGrid, FillsSpace)
+{
+  const auto mesh = generate<3>("plate with hole grid", {10, 10, 2}, {1., 1., 0.2}, 1);
+  // Four columns of two cells have their axis within 0.1 of the origin.
+  EXPECT_EQ(mesh->triangulation.n_global_active_cells(), (10u * 10 * 2 - 4 * 2) * 8);
+  EXPECT_NEAR(boundary_measure(*mesh, "hole"), 4 * 0.2 * 0.2, 1e-14);
+  for (const char *side : {"back", "front"})
+    EXPECT_NEAR(boundary_measure(*mesh, side), 0.96, 1e-13) << side;
+}
+
 TEST(Generators, RefuseWhatDoesNotFit)
 {
   expect_input_error(
-    [] { generate<2>("plate with hoel", {}); },
-    {"Mesh/Generator", "plate with hoel", "box | plate with hole", "did you mean: plate with hole"});
+    [] {
+      generate<2>("plate with hole grid", {4, 4});
+    },
+    {"Mesh/Hole radius", "must take cells", "0.17"});
+  expect_input_error(
+    [] {
+      generate<2>("plate with hole grid", {4, 4}, {0.2, 1.});
+    },
+    {"Mesh/Hole radius", "none at the edges"});
+  expect_input_error([] { generate<2>("plate with hoel", {}); },
+                     {"Mesh/Generator",
+                      "plate with hoel",
+                      "box | plate with hole | plate with hole grid",
+                      "did you mean: plate with hole"});
   expect_input_error([] { generate<2>("box", {1, 2, 3}); }, {"Mesh/Cells", "2 numbers", "counts along x, y"});
   expect_input_error([] { generate<3>("plate with hole", {}, {1.}); }, {"Mesh/Size", "depth"});
   expect_input_error([] { generate<2>("box", {}, {1., 0.}); }, {"Mesh/Size", "positive"});

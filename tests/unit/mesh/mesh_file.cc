@@ -104,3 +104,17 @@ TEST(MeshFile, BundledGeometryIsTheGeneratorsPlate)
   for (const char *side : {"left", "right", "bottom", "top", "hole"})
     EXPECT_NEAR(boundary_measure(*file, side), boundary_measure(*generated, side), 1e-9) << side;
 }
+
+TEST(MeshFile, BundledLaminateHasItsSize)
+{
+  const auto mesh = read<2>("meshes/laminate_with_hole.geo");
+  EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 7440u);
+  // The hole is a polygon of 120 corners; coordinates have 16 digits in the file.
+  const double angle = 2 * dealii::numbers::PI / 120;
+  EXPECT_NEAR(measure(mesh->triangulation), 0.15 * 0.05 - 60 * 1e-4 * std::sin(angle), 1e-12);
+  EXPECT_NEAR(boundary_measure(*mesh, "hole"), 120 * 0.02 * std::sin(angle / 2), 1e-12);
+  for (const char *side : {"left", "right"})
+    EXPECT_NEAR(boundary_measure(*mesh, side), 0.05, 1e-12) << side;
+  for (const char *side : {"bottom", "top"})
+    EXPECT_NEAR(boundary_measure(*mesh, side), 0.15, 1e-12) << side;
+}
