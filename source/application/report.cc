@@ -131,6 +131,8 @@ namespace perideal
         << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
         << " had negative deviatoric weights\n";
     out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
+    if (parameters.loads.layers > 1)
+      out << ", " << parameters.loads.layers << " layers of cells";
     if (scene.mirror->n_fictitious() > 0)
       out << ", " << grouped(scene.mirror->nodes().n_global - scene.nodes->n_global) << " fictitious nodes";
     if (!scene.null_space.empty())

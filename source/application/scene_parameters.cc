@@ -172,6 +172,12 @@ namespace perideal
         .given(treatment)
         .allowed("automatic | layer | reference | mirror for this model")
         .hint("or set Material/Form = consistent");
+    if (loads.layers > 1 && treatment != "layer" && treatment != "reference")
+      throw InputError("this treatment holds no nodes, of which there could be more layers")
+        .parameter("Boundary conditions/Layers")
+        .given(std::to_string(loads.layers))
+        .allowed("1 for Displacement treatment = " + treatment)
+        .hint("set Boundary conditions/Displacement treatment = layer");
     // The consistent form leaves the choice to the mesh.
     if (nodes.horizon_shape == "automatic" && !consistent)
       nodes.horizon_shape = "sphere";

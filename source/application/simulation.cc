@@ -131,6 +131,7 @@ namespace perideal
     scene.system->initialize(displacement);
     scene.system->initialize(external_force);
     check_finite(scene.faces, scene.loads, scene.condition_boundaries, 1., communicator);
+    scene.held.check_finite(scene.loads, 1., communicator);
     apply_loads(1.);
     NodalVector residual;
     scene.system->initialize(residual);

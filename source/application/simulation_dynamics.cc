@@ -202,6 +202,7 @@ namespace perideal
     scene.force->initialize(external_force);
     check_finite(
       scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
+    scene.held.check_finite(scene.loads, parameters.solver.end_time, communicator);
     const auto set_loads = [&]() {
       compute_nodal_forces(
         *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, dynamics.time(), external_force);

@@ -64,10 +64,17 @@ namespace perideal
       {
         const bool at_faces = parameters.loads.displacement_treatment == "face value";
         scene.mirror        = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
-        scene.held          = HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
-                                    scene.loads,
-                                    scene.condition_boundaries,
-                                    scene.nodes->size());
+        scene.held          = parameters.loads.layers > 1 ?
+                                HeldNodes<dim>(*scene.mesh,
+                                      *scene.nodes,
+                                      scene.faces,
+                                      scene.loads,
+                                      scene.condition_boundaries,
+                                      parameters.loads.layers) :
+                                HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                                      scene.loads,
+                                      scene.condition_boundaries,
+                                      scene.nodes->size());
       }
     scene.families = std::make_shared<Families<dim>>(scene.mirror->nodes());
     if (scene.families->statistics().min == 0)

@@ -119,6 +119,14 @@ namespace perideal
       "automatic: face value for the consistent form, else layer",
       dealii::Patterns::Selection("automatic|face value|layer|reference|mirror"));
     prm.add_parameter(
+      "Layers",
+      layers,
+      "How many layers of cells under a boundary the treatments layer and reference hold [-]. 1: those "
+      "at the boundary, which take its value at the face; more: also the cells that share a vertex with "
+      "these, and so on, all of which take the formula's value at their own node: for formulas that are "
+      "the field, in a collar as deep as the horizon",
+      dealii::Patterns::Integer(1, 1000));
+    prm.add_parameter(
       "Rigid body motions",
       rigid_body_motions,
       "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "

@@ -9,7 +9,7 @@
 namespace perideal
 {
   /**
-   * The outer layer: nodes of the cells at a boundary with prescribed
+   * The outer layers: nodes of the cells at a boundary with prescribed
    * displacement, whose components take prescribed values.
    */
   template <int dim>
@@ -24,14 +24,25 @@ namespace perideal
               const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
               const LocalIndex                                            n_nodes);
 
-    /// A component of a node held by a face of one condition. A node at a corner
+    /// The nodes of the cells within some layers of a boundary that a condition holds: those with a face on
+    /// it, in the next layer those that share a vertex with these, and so on. Values are those at the nodes
+    /// themselves. Collective.
+    /// @param n_layers 1 or more
+    HeldNodes(const Mesh<dim>                                            &mesh,
+              const Nodes<dim>                                           &nodes,
+              const std::vector<BoundaryFace<dim>>                       &faces,
+              const Loads<dim>                                           &loads,
+              const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+              const unsigned int                                          n_layers);
+
+    /// A component of a node held by a condition, through a face of it or in its layers. A node at a corner
     /// may have several entries for one component; they count with equal shares.
     struct Entry
     {
       LocalIndex   node;
       unsigned int component;
       unsigned int condition;
-      /// Centre of the boundary face.
+      /// Where the value is prescribed: centre of the boundary face, or the node.
       dealii::Point<dim> point;
       double             share;
     };
@@ -40,7 +51,11 @@ namespace perideal
     /// By dim*node + component: 1 where held.
     const std::vector<std::uint8_t> &mask() const { return held; }
 
-    /// Writes the boundary's values at the face centres into held components.
+    /// Evaluates what is prescribed at all entries. Collective.
+    /// @throws InputError naming a function that is not a finite number somewhere.
+    void check_finite(const Loads<dim> &loads, const double time, MPI_Comm communicator) const;
+
+    /// Writes the prescribed values into held components.
     void set_boundary_values(const Loads<dim> &loads, const double time, NodalVector &displacement) const;
 
     /// Writes the velocities with which held components get from @p displacement at a time to where
@@ -62,6 +77,14 @@ namespace perideal
     double work(const NodalVector &force, const NodalVector &displacement, MPI_Comm communicator) const;
 
   private:
+    /// Adds an entry for each component that the condition holds.
+    void add(const Loads<dim>         &loads,
+             const unsigned int        condition,
+             const LocalIndex          node,
+             const dealii::Point<dim> &point);
+    /// Masks what has entries, and shares components among theirs.
+    void mask_and_share(const LocalIndex n_nodes);
+
     std::vector<Entry>        list;
     std::vector<std::uint8_t> held;
     unsigned int              n_conditions = 0;

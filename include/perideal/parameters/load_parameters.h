@@ -48,6 +48,8 @@ namespace perideal
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
     /// layer | reference | mirror.
     std::string displacement_treatment = "automatic";
+    /// How many layers of cells under a boundary are held, where nodes are.
+    unsigned int layers = 1;
     /// What to do about rigid-body motions that no condition holds: error | remove.
     std::string                        rigid_body_motions = "error";
     std::vector<BoundaryConditionText> conditions;

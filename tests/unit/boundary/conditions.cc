@@ -127,6 +127,78 @@ TEST(HeldNodes, ReactionsAreSummedByCondition)
   EXPECT_NEAR(reactions[1][1], 0., 1e-13);
 }
 
+TEST(HeldNodes, LayersTakeTheFieldAtTheirNodes)
+{
+  const Scene        scene({held("0", "3*y*t", ""), held("3", "x+1", "5")});
+  const HeldNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 3);
+  NodalVector        u = scene.field();
+  u                    = 7.;
+  nodes.set_boundary_values(scene.loads, 2., u);
+  // The vertices of a cell of 1/8 move by 0.2 cells at most, which moves no centroid by half a cell.
+  double n_left = 0, n_top = 0;
+  for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
+    {
+      const auto  &x       = scene.nodes.position[i];
+      const bool   left    = x[0]<3. / 8, top = x[1]> 3. / 8;
+      const double on_left = 6 * x[1], on_top = x[0] + 1;
+      // Where both conditions hold, they count with equal shares.
+      const double expected = left && top ? 0.5 * (on_left + on_top) : left ? on_left : top ? on_top : 7.;
+      EXPECT_NEAR(u.local_element(2 * i), expected, 1e-14);
+      EXPECT_EQ(u.local_element(2 * i + 1), top ? 5. : 7.);
+      EXPECT_EQ(nodes.mask()[2 * i] == 1, left || top);
+      n_left += left;
+      n_top += top;
+    }
+  EXPECT_EQ(sum(n_left), 18.);
+  EXPECT_EQ(sum(n_top), 24.);
+
+  std::vector<dealii::Tensor<1, 2>> reference(scene.nodes.size(), dealii::Tensor<1, 2>({8., 9.}));
+  nodes.set_nodal_values(reference, u);
+  NodalVector force = scene.field();
+  force             = 2.;
+  // 24 nodes and, at the corner, half of 9; 15 of the left alone and the other half.
+  const auto reactions = nodes.sum_by_condition(force, MPI_COMM_WORLD);
+  EXPECT_NEAR(reactions[0][0], 2 * (9 + 4.5), 1e-13);
+  EXPECT_NEAR(reactions[1][0], 2 * (15 + 4.5), 1e-13);
+  EXPECT_NEAR(reactions[1][1], 2 * 24., 1e-13);
+  for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
+    {
+      EXPECT_EQ(nodes.mask()[2 * i] == 1, u.local_element(2 * i) == 8.);
+      EXPECT_EQ(nodes.mask()[2 * i + 1] == 1, u.local_element(2 * i + 1) == 9.);
+    }
+}
+
+/// Where cells meet at hanging vertices too, layers are the same on any number of ranks.
+TEST(HeldNodes, LayersCrossRanks)
+{
+  LoadParameters parameters;
+  parameters.conditions = {held("0", "x", "0"), held("2", "", "y")};
+  const Loads<2> loads(parameters);
+  double         n_held[2];
+  for (const int k : {0, 1})
+    {
+      const auto mesh =
+        test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3, k == 0 ? MPI_COMM_SELF : MPI_COMM_WORLD);
+      const Nodes<2>     nodes(*mesh, NodeParameters{3.01});
+      const HeldNodes<2> layers(
+        *mesh, nodes, find_boundary_faces(*mesh, nodes), loads, resolve_boundaries(*mesh, loads), 4);
+      n_held[k] = std::count(layers.mask().begin(), layers.mask().end(), 1);
+    }
+  EXPECT_GT(n_held[0], 40.);
+  EXPECT_EQ(sum(n_held[1]), n_held[0]);
+}
+
+TEST(HeldNodes, InfiniteValuesAreErrors)
+{
+  // Finite at the boundary, a pole within.
+  const Scene        scene({held("0", "0", "1/(x-0.0625)")}, 0.);
+  const HeldNodes<2> first(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  first.check_finite(scene.loads, 1., MPI_COMM_WORLD);
+  const HeldNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 2);
+  expect_input_error([&] { nodes.check_finite(scene.loads, 1., MPI_COMM_WORLD); },
+                     {"Boundary conditions/hold 0/u_y", "not a finite number"});
+}
+
 TEST(NodalForces, ResultantsAreExact)
 {
   auto pulled      = condition("pull", "1");
