@@ -48,6 +48,7 @@ namespace perideal
     result["nodes"]      = scene.nodes->n_global;
     result["bonds"]      = scene.families->n_bonds();
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
+    result["quadrature"] = parameters.quadrature.scheme;
     result["model"]      = parameters.model.model;
     result["variant"] = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
     result["families"] = {{"fallback", scene.family_counts.fallback},
@@ -122,7 +123,8 @@ namespace perideal
         << "nodes       " << grouped(scene.nodes->n_global) << ", horizon " << parameters.nodes.horizon_factor
         << " spacings, influence " << parameters.model.influence_function << '\n'
         << "bonds       " << grouped(scene.families->n_bonds()) << ", neighbours a node " << statistics.min
-        << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)\n"
+        << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)"
+        << (parameters.quadrature.counts_parts() ? ", partial volumes at the horizon" : "") << '\n'
         << "model       " << parameters.model.model
         << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "")
         << ", " << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';

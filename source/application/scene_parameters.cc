@@ -80,6 +80,7 @@ namespace perideal
                       "Directory for the results, from the current directory; created when missing");
     mesh.declare(prm);
     nodes.declare(prm);
+    quadrature.declare(prm);
     model.declare(prm);
     material.declare(prm, file);
     solver.declare(prm);
@@ -186,6 +187,12 @@ namespace perideal
         .parameter("Nodes/Horizon shape")
         .given(nodes.horizon_shape)
         .allowed("automatic | sphere; or set Material/Form = consistent");
+    if (quadrature.counts_parts() && consistent)
+      throw InputError(
+        "the bonds of the consistent form only stabilise it, for which their whole volumes serve")
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .allowed("one point; or set Material/Form = energy | paper, or another Material/Model");
     if (treatment == "mirror" && consistent)
       throw InputError("mirrored nodes have no cells, which the consistent form needs")
         .parameter("Boundary conditions/Displacement treatment")

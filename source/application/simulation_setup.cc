@@ -52,8 +52,9 @@ namespace perideal
   void Simulation<dim>::make_nodes_and_families()
   {
     const Timings::Scope scope(timings, "neighbours");
-    scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
-    scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
+    scene.nodes         = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
+    scene.nodes->margin = parameters.quadrature.margin();
+    scene.faces         = find_boundary_faces(*scene.mesh, *scene.nodes);
     if (parameters.loads.displacement_treatment == "mirror")
       {
         scene.mirror = std::make_shared<MirrorLayer<dim>>(

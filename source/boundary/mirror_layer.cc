@@ -137,11 +137,15 @@ namespace perideal
   {
     // Families of real nodes reach one horizon behind the plane, and the
     // families of the nodes there, whose forces count too, another one.
-    double horizon = 0;
+    double reach = 0;
     for (LocalIndex i = 0; i < all.size(); ++i)
-      if (std::abs((all.position[i] - plane.point) * plane.normal) <= all.horizon[i])
-        horizon = std::max(horizon, all.horizon[i]);
-    const double depth = 2. * dealii::Utilities::MPI::max(horizon, all.communicator);
+      {
+        // Horizons are spheres here.
+        const double reach_of_node = all.reach(i)[0];
+        if (std::abs((all.position[i] - plane.point) * plane.normal) <= reach_of_node)
+          reach = std::max(reach, reach_of_node);
+      }
+    const double depth = 2. * dealii::Utilities::MPI::max(reach, all.communicator);
 
     const LocalIndex n_before = all.size();
     for (LocalIndex i = 0; i < n_before; ++i)

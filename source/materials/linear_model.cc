@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/linear_model.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <algorithm>
 
@@ -12,7 +13,8 @@ namespace perideal
   {
     member.clear();
     for (LocalIndex k = 0; k < families.size(i); ++k)
-      if (!is_gone || !is_gone(families.begin(i)[k]))
+      if (const LocalIndex j = families.begin(i)[k];
+          (!is_gone || !is_gone(j)) && volume_share(families, i, j) > 0)
         member.push_back(k);
     size        = static_cast<LocalIndex>(member.size());
     node_volume = families.volume[i];
@@ -29,7 +31,7 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           bond[d][k] = xi[d];
         length_square[k] = xi.norm_square();
-        volume[k]        = families.volume[j];
+        volume[k]        = counted_volume(families, i, j);
         bond_horizon[k]  = std::max(families.horizon[i], families.horizon[j]);
       }
   }

@@ -74,7 +74,9 @@ namespace perideal
     , horizon(nodes.horizon)
     , material(nodes.material)
     , shape(nodes.shape)
+    , spacing(nodes.margin > 0 ? nodes.spacing : std::vector<double>())
     , communicator(nodes.communicator)
+    , margin(nodes.margin)
     , n_owned_nodes(nodes.size())
     , first_global(nodes.first_global)
     , n_global(nodes.n_global)
@@ -103,6 +105,8 @@ namespace perideal
         material.push_back(ghost.material);
         if (!shape.empty())
           shape.push_back(ghost.shape);
+        if (margin > 0)
+          spacing.push_back(ghost.spacing);
       }
     const PointTree<dim> ghost_tree(ghost_boxes);
 
@@ -133,7 +137,7 @@ namespace perideal
         collect(ghost_tree, n_owned_nodes);
         for (LocalIndex i = begin; i < end; ++i)
           {
-            keep_within_shapes(i, family[i - begin]);
+            keep_within_horizons(i, family[i - begin]);
             neighbour.insert(neighbour.end(), family[i - begin].begin(), family[i - begin].end());
             row.push_back(neighbour.size());
           }
@@ -142,13 +146,16 @@ namespace perideal
   }
 
   template <int dim>
-  void Families<dim>::keep_within_shapes(const LocalIndex i, std::vector<LocalIndex> &members) const
+  void Families<dim>::keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const
   {
-    if (shape.empty())
+    if (shape.empty() && margin == 0)
       return;
     const auto is_outside = [&](const LocalIndex j) {
       const auto bond = position[j] - position[i];
-      return (shape[i] * bond).norm_square() > 1. && (shape[j] * bond).norm_square() > 1.;
+      if (!shape.empty())
+        return (shape[i] * bond).norm_square() > 1. && (shape[j] * bond).norm_square() > 1.;
+      const double length = bond.norm(), cells = margin - negligible_share;
+      return length > horizon[i] + cells * spacing[j] && length > horizon[j] + cells * spacing[i];
     };
     members.erase(std::remove_if(members.begin(), members.end(), is_outside), members.end());
   }
@@ -176,6 +183,8 @@ namespace perideal
           horizon[n_owned_nodes + n_used]  = horizon[n_owned_nodes + g];
           if (!shape.empty())
             shape[n_owned_nodes + n_used] = shape[n_owned_nodes + g];
+          if (margin > 0)
+            spacing[n_owned_nodes + n_used] = spacing[n_owned_nodes + g];
           material[n_owned_nodes + n_used++] = material[n_owned_nodes + g];
         }
     ghost_number.resize(n_used);
@@ -185,6 +194,8 @@ namespace perideal
     horizon.resize(n_owned_nodes + n_used);
     if (!shape.empty())
       shape.resize(n_owned_nodes + n_used);
+    if (margin > 0)
+      spacing.resize(n_owned_nodes + n_used);
     material.resize(n_owned_nodes + n_used);
     for (LocalIndex &j : neighbour)
       if (j >= n_owned_nodes)
@@ -227,8 +238,8 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(position) + memory_consumption(volume) + memory_consumption(horizon) +
-           memory_consumption(material) + shape.size() * sizeof(shape[0]) + memory_consumption(row) +
-           memory_consumption(neighbour);
+           memory_consumption(material) + shape.size() * sizeof(shape[0]) + memory_consumption(spacing) +
+           memory_consumption(row) + memory_consumption(neighbour);
   }
 
   template class Families<2>;

@@ -80,6 +80,7 @@ namespace perideal
                                            nodes.volume[i],
                                            nodes.horizon[i],
                                            nodes.material[i],
+                                          nodes.margin > 0 ? nodes.spacing[i] : 0.,
                                           nodes.shape.empty() ? dealii::Tensor<2, dim>() : nodes.shape[i],
                                            nodes.reach(i)};
               const auto          begin = reinterpret_cast<const char *>(&node);

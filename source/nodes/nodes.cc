@@ -90,9 +90,10 @@ namespace perideal
     dealii::Tensor<1, dim> result;
     if (shape.empty())
       for (int d = 0; d < dim; ++d)
-        result[d] = horizon[i];
+        result[d] = horizon[i] + (margin > 0 ? margin * spacing[i] : 0.);
     else
       {
+        Assert(margin == 0, dealii::ExcNotImplemented());
         // The box around the image of the unit sphere under the inverse map.
         const auto semi_axes = invert(shape[i]);
         for (int d = 0; d < dim; ++d)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/breaking_bonds.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
@@ -117,9 +118,9 @@ namespace perideal
   void BreakingBonds<dim>::lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const
   {
     const LocalIndex j = bonds.neighbour[slot];
-    volume[i] += families->volume[j];
+    volume[i] += counted_volume(*families, i, j);
     if (j < families->n_owned())
-      volume[j] += families->volume[i];
+      volume[j] += counted_volume(*families, j, i);
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/operators/relative_damping.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -23,7 +24,7 @@ namespace perideal
     NodalVector family_volume(families.make_partitioner(1));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
-        family_volume.local_element(i) += families.volume[*j];
+        family_volume.local_element(i) += counted_volume(families, i, *j);
     family_volume.update_ghost_values();
     std::vector<double> mass(families.n_local());
     for (LocalIndex i = 0; i < families.n_local(); ++i)
@@ -33,8 +34,8 @@ namespace perideal
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
           coefficient[slot] = 0.5 * dim * rate *
-                              (mass[i] * families.volume[j] / family_volume.local_element(i) +
-                               mass[j] * families.volume[i] / family_volume.local_element(j));
+                              (mass[i] * counted_volume(families, i, j) / family_volume.local_element(i) +
+                               mass[j] * counted_volume(families, j, i) / family_volume.local_element(j));
     bound = find_largest_rate(bonds, mass);
   }
 

@@ -100,14 +100,23 @@ namespace perideal::test
     return result;
   }
 
+  /// Nodes of which families reach a margin beyond horizons.
+  template <int dim>
+  Nodes<dim> with_margin(Nodes<dim> nodes, const double margin)
+  {
+    nodes.margin = margin;
+    return nodes;
+  }
+
   /// Nodes and families of a mesh.
   template <int dim>
   struct Body
   {
     explicit Body(const Mesh<dim>   &mesh,
                   const double       horizon_factor = 3.01,
-                  const std::string &horizon_shape  = "sphere")
-      : nodes(mesh, NodeParameters{horizon_factor, horizon_shape})
+                  const std::string &horizon_shape  = "sphere",
+                  const double       margin         = 0.)
+      : nodes(with_margin(Nodes<dim>(mesh, NodeParameters{horizon_factor, horizon_shape}), margin))
       , families(std::make_shared<const Families<dim>>(nodes))
     {
     }

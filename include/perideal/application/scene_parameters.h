@@ -12,6 +12,7 @@
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
+#include <perideal/quadrature/bond_volume.h>
 #include <perideal/solvers/linear_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -74,6 +75,7 @@ namespace perideal
     unsigned int         frames = 10, history_steps = 10;
     MeshParameters       mesh;
     NodeParameters       nodes;
+    QuadratureParameters quadrature;
     ModelParameters      model;
     MaterialParameters   material;
     SolverParameters     solver;

@@ -36,7 +36,7 @@ namespace perideal
     std::array<std::vector<double>, dim> bond;
     /// |xi|^2 [m^2].
     std::vector<double> length_square;
-    /// Volumes of the members V_j [m^3].
+    /// Volumes of the members V_j, as far as their bonds count them [m^3].
     std::vector<double> volume;
     /// The larger horizon of the bond's ends [m].
     std::vector<double> bond_horizon;
@@ -48,7 +48,8 @@ namespace perideal
     /// The node's stiffness C [Pa]; of use to models for solids of any symmetry.
     dealii::SymmetricTensor<4, dim> stiffness;
 
-    /// Looks at the family of owned node @p i; the solid is the caller's to set.
+    /// Looks at the family of owned node @p i, without those whose volume counts for nothing there; the
+    /// solid is the caller's to set.
     /// @param is_gone leaves out such members; empty: all are there
     void reinit(const Families<dim>                         &families,
                 const LocalIndex                             i,

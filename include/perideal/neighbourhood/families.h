@@ -15,7 +15,8 @@ namespace perideal
    * The families of the nodes of this rank by the union rule: j belongs to the
    * family of i when it lies within the horizon of i or i within that of j, for
    * spheres |x_j - x_i| <= max(horizon_i, horizon_j), so that every
-   * bond has two ends (XOSB eq. 71).
+   * bond has two ends (XOSB eq. 71). Where the cloud has a margin a, horizons reach cells that they cut:
+   * |x_j - x_i| < horizon_i + a spacing_j, or the same the other way round.
    *
    * Local numbers: owned nodes first, as in the cloud, then ghosts, the nodes of
    * other ranks that share a bond with an owned one, by ascending global number.
@@ -69,6 +70,11 @@ namespace perideal
     std::vector<dealii::types::material_id> material;
     /// Shapes of the horizons as in the cloud; empty where all are spheres.
     std::vector<dealii::Tensor<2, dim>> shape;
+    /// Spacings of local nodes [m], ghosts included; empty where families have no margin.
+    std::vector<double> spacing;
+
+    /// Share of a cell within the horizon that is round-off [-]: such a cell is outside.
+    static constexpr double negligible_share = 1e-10;
 
     /// Global numbers of the ghosts, ascending, and the rank that owns each.
     std::vector<GlobalIndex>  ghost_number;
@@ -78,11 +84,13 @@ namespace perideal
 
   private:
     void search(const NodeCloud<dim> &nodes);
-    /// Drops members of which neither horizon holds the other, where they are no spheres.
-    void keep_within_shapes(const LocalIndex i, std::vector<LocalIndex> &members) const;
+    /// Drops members of which neither horizon holds the other, where the search takes more: horizons that
+    /// are no spheres, and margins, for which it takes a node's own spacing.
+    void keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const;
     void drop_unused_ghosts();
     void count();
 
+    double                  margin;
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
     std::vector<BondIndex>  row;

@@ -18,6 +18,8 @@ namespace perideal
     dealii::Point<dim>         position;
     double                     volume, horizon;
     dealii::types::material_id material;
+    /// Zero where families have no margin.
+    double spacing;
     /// Zero where horizons are spheres.
     dealii::Tensor<2, dim> shape;
     dealii::Tensor<1, dim> reach;

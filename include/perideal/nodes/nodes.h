@@ -34,7 +34,7 @@ namespace perideal
   {
     LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
 
-    /// How far the horizon of node @p i reaches along each axis [m].
+    /// How far the horizon of node @p i reaches along each axis, with its margin [m].
     dealii::Tensor<1, dim> reach(const LocalIndex i) const;
 
     /// Sets first_global and n_global from the sizes on all ranks. Collective.
@@ -54,6 +54,9 @@ namespace perideal
     std::vector<dealii::Tensor<2, dim>> shape;
     /// Material (cell group) of the node.
     std::vector<dealii::types::material_id> material;
+    /// How far families reach beyond spherical horizons, in spacings of the neighbour [-]: a half where
+    /// cells that a horizon cuts belong to the family.
+    double margin = 0;
 
     /// Global number of this rank's first node; the rank's nodes are contiguous.
     GlobalIndex first_global = 0;

@@ -2,6 +2,7 @@
 #include <perideal/materials/models.h>
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/bond_operator.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -33,8 +34,8 @@ namespace
   template <int dim>
   struct LooseBody
   {
-    LooseBody(const Mesh<dim> &mesh, const Variant &variant)
-      : body(mesh)
+    LooseBody(const Mesh<dim> &mesh, const Variant &variant, const double margin = 0.)
+      : body(mesh, 3.01, "sphere", margin)
     {
       ModelParameters parameters;
       parameters.model = variant.first;
@@ -91,12 +92,19 @@ namespace
   template <int dim>
   void for_all(const std::function<void(LooseBody<dim> &, const Variant &)> &property)
   {
-    for (const auto &mesh : test::make_boxes<dim>())
+    const auto boxes = test::make_boxes<dim>();
+    for (const auto &mesh : boxes)
       for (const Variant &variant : variants)
         {
           SCOPED_TRACE(variant.first + ", " + variant.second);
           LooseBody<dim> loose(*mesh, variant);
           property(loose, variant);
+          // Partial volumes, where spacings differ.
+          if (mesh == boxes.back())
+            {
+              LooseBody<dim> parts(*mesh, variant, 0.5);
+              property(parts, variant);
+            }
         }
   }
 
@@ -245,6 +253,43 @@ TEST(BondForce, CutsBondsApartFromDamage)
         cut = std::max(cut, share);
       EXPECT_GT(dealii::Utilities::MPI::max(cut, MPI_COMM_WORLD), 0.3);
     }
+}
+
+/// Damage is the share of the volume that bonds count: those that count nothing at one end do no damage
+/// there.
+TEST(BondForce, CountsPartialVolumesInDamage)
+{
+  const auto   mesh = test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3);
+  LooseBody<2> loose(*mesh, variants[0], 0.5), gone(*mesh, variants[0], 0.5);
+  const auto  &families = *loose.body.families;
+  gone.bonds->cut([](const dealii::Point<2> &, const dealii::Point<2> &) { return true; });
+  for (const double share : gone.bonds->cut_share())
+    EXPECT_NEAR(share, 1., 1e-14);
+
+  const auto is_cut = [](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+    return (a[0] < 0.55) != (b[0] < 0.55);
+  };
+  loose.bonds->cut(is_cut);
+  const auto cut      = loose.bonds->cut_share();
+  double     n_spared = 0;
+  for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    {
+      double       gone_volume = 0, volume = 0;
+      unsigned int n_gone = 0;
+      for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+        {
+          const double counted = volume_share(families, i, *j) * families.volume[*j];
+          volume += counted;
+          if (is_cut(families.position[i], families.position[*j]))
+            {
+              gone_volume += counted;
+              ++n_gone;
+            }
+        }
+      EXPECT_NEAR(cut[i], gone_volume / volume, 1e-13);
+      n_spared += n_gone > 0 && gone_volume == 0;
+    }
+  EXPECT_GT(dealii::Utilities::MPI::sum(n_spared, MPI_COMM_WORLD), 0.);
 }
 
 /// A force that is told not to judge breaks nothing, however far bonds are stretched, until it is told to.
