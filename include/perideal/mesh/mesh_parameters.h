@@ -22,6 +22,8 @@ namespace perideal
     std::vector<unsigned int> cells;
     /// Lengths of the generator's geometry [m]; empty: its default.
     std::vector<double> size;
+    /// Where the box of the generator begins [m]; empty: at the origin.
+    std::vector<double> corner;
     /// Radius of the generator's hole [m].
     double hole_radius = 0.1;
     /// Growth of the cell size over a graded block, from the hole outwards [-].
