@@ -97,12 +97,16 @@ namespace perideal
     const std::vector<double> size =
       lengths(parameters, std::vector<double>(dim, 1.), "lengths " + directions + " [m], > 0");
 
-    dealii::Point<dim> upper;
+    if (!parameters.corner.empty())
+      check_number(parameters.corner.size(), dim, "Mesh/Corner", "coordinates " + directions + " [m]");
+    dealii::Point<dim> lower, upper;
     for (unsigned int d = 0; d < dim; ++d)
-      upper[d] = size[d];
+      {
+        lower[d] = parameters.corner.empty() ? 0. : parameters.corner[d];
+        upper[d] = lower[d] + size[d];
+      }
     // colorized: boundary ids in the order x min, x max, y min, ...
-    dealii::GridGenerator::subdivided_hyper_rectangle(
-      mesh.triangulation, counts, dealii::Point<dim>(), upper, true);
+    dealii::GridGenerator::subdivided_hyper_rectangle(mesh.triangulation, counts, lower, upper, true);
     // It also numbers the cells by quadrant, which makes no materials.
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       cell->set_material_id(0);

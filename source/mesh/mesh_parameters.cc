@@ -35,6 +35,10 @@ namespace perideal
       "plate with hole: side(, depth in z), about the origin, default 1(, 0.1); plate with hole grid: "
       "along x, y(, z), about the origin, default 1, 1(, 0.1)",
       List(Double(0.), 0, 3));
+    prm.add_parameter("Corner",
+                      corner,
+                      "Lower corner of the generator box: x, y(, z), default the origin [m]",
+                      List(Double(), 0, 3));
     prm.add_parameter(
       "Hole radius",
       hole_radius,
@@ -102,6 +106,8 @@ namespace perideal
       throw InputError("boundaries are named to refine at, but not how often")
         .parameter("Mesh/Refine times")
         .allowed("1 to 12, or an empty Refine at");
+    if (generator != "box" && !corner.empty())
+      throw InputError("the Corner is one of the generator box").parameter("Mesh/Corner");
     if (!generator.empty() && !cylinders.empty())
       throw InputError("Cylinders belong to a mesh File; generators know their curved boundaries")
         .parameter("Mesh/Cylinders");

@@ -19,7 +19,7 @@ namespace perideal
   void generate_mesh(const MeshParameters &parameters, CoarseMesh<dim> &mesh);
 
   /**
-   * "box": lower corner at the origin. Size: lengths in x, y(, z), default 1 m.
+   * "box": lower corner at the origin, or the Corner given. Size: lengths in x, y(, z), default 1 m.
    * Cells: counts in x, y(, z), default 10. Boundaries: left, right (x), bottom,
    * top (y), back, front (z), each minimum first.
    */
