@@ -50,7 +50,7 @@ namespace perideal
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
     result["quadrature"] = parameters.quadrature.scheme;
     result["model"]      = parameters.model.model;
-    result["variant"] = parameters.model.model == "extended ordinary" ? parameters.model.form : "uncorrected";
+    result["variant"] = parameters.model.has_forms() ? parameters.model.form : "uncorrected";
     result["families"] = {{"fallback", scene.family_counts.fallback},
                           {"singular", scene.family_counts.singular},
                           {"indefinite", scene.family_counts.indefinite}};
@@ -107,7 +107,8 @@ namespace perideal
       result["halo exchange (one rank)"] = 1;
     if (parameters.loads.displacement_treatment != "mirror")
       result["fictitious nodes (no mirror)"] = 1;
-    if (parameters.model.model == "bond based")
+    if (parameters.model.model == "bond based" ||
+        (parameters.model.is_tensor_involved() && !parameters.model.is_consistent()))
       result["sums over families, their halo exchange"] = bonds;
     else if (parameters.model.model == "ordinary" || parameters.model.form == "paper")
       result["second sum over families"] = bonds;
@@ -126,7 +127,7 @@ namespace perideal
         << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)"
         << (parameters.quadrature.counts_parts() ? ", partial volumes at the horizon" : "") << '\n'
         << "model       " << parameters.model.model
-        << (parameters.model.model == "extended ordinary" ? ", " + parameters.model.form + " form" : "")
+        << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "")
         << ", " << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
     const FamilyCounts &counts = scene.family_counts;
     out << "families    " << grouped(counts.fallback) << " with fallback weights, "

@@ -87,10 +87,13 @@ namespace perideal
   template <int dim>
   dealii::Tensor<1, dim> NodeCloud<dim>::reach(const LocalIndex i) const
   {
+    // A hair more, so that on regular meshes the nodes at the rim of a horizon of whole cells are members,
+    // whatever way they are rounded.
+    constexpr double       round_off = 1e-9;
     dealii::Tensor<1, dim> result;
     if (shape.empty())
       for (int d = 0; d < dim; ++d)
-        result[d] = horizon[i] + (margin > 0 ? margin * spacing[i] : 0.);
+        result[d] = (1. + round_off) * horizon[i] + (margin > 0 ? margin * spacing[i] : 0.);
     else
       {
         Assert(margin == 0, dealii::ExcNotImplemented());

@@ -49,11 +49,13 @@ namespace perideal
   std::vector<BondCursor::End> FamilyForce<dim, n_sums, own_force_weights>::slots_of(const LocalIndex i) const
   {
     std::vector<BondCursor::End> result;
-    const double                 reach = (1. + 1e-12) * families->horizon[i];
+    // As far as a bond may reach, generously.
+    const auto reach = [&](const LocalIndex from, const LocalIndex to) {
+      return (1. + 1e-8) * families->horizon[from] + (families->spacing.empty() ? 0. : families->spacing[to]);
+    };
     regions.visit_rows_with(i, [&](const LocalIndex j) {
       // Most of the rows hold other nodes: the distance tells so faster than a search.
-      if (families->position[i].distance(families->position[j]) >
-          std::max(reach, (1. + 1e-12) * families->horizon[j]))
+      if (families->position[i].distance(families->position[j]) > std::max(reach(i, j), reach(j, i)))
         return;
       const BondIndex slot = bonds.find(j, i);
       if (slot != BondList::no_slot)
