@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
 #include <perideal/parameters/elastic_symmetry.h>
 #include <perideal/parameters/inherited_parameter.h>
 #include <perideal/parameters/parameter_file.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace perideal
 {
@@ -95,5 +95,22 @@ namespace perideal
           .parameter(section + "/" + parameter)
           .hint(parameter == "Voigt order" ? "it says what the rows of a Stiffness of 21 numbers stand for" :
                                              "remove it, or choose another " + section + "/Symmetry");
+  }
+
+  InputError ElasticSymmetry::complaint(const std::string         &problem,
+                                        const std::string         &parameter,
+                                        const std::vector<double> &values) const
+  {
+    InputError result(problem);
+    result.parameter(section + "/" + parameter);
+    // What the section gives itself is added as the user wrote it, with its line.
+    if (std::find(given.begin(), given.end(), parameter) == given.end())
+      {
+        std::ostringstream text;
+        for (const double value : values)
+          text << (text.tellp() > 0 ? ", " : "") << value;
+        result.given(values.empty() ? "nothing" : text.str());
+      }
+    return result;
   }
 } // namespace perideal

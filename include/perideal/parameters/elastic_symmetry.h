@@ -2,6 +2,7 @@
 #ifndef perideal_parameters_elastic_symmetry_h
 #define perideal_parameters_elastic_symmetry_h
 
+#include <perideal/base/exceptions.h>
 #include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -40,6 +41,11 @@ namespace perideal
 
     /// @throws InputError when the section gives a parameter that its symmetry has no use for.
     void check() const;
+
+    /// An error about a list of constants, which it names with its values.
+    InputError complaint(const std::string         &problem,
+                         const std::string         &parameter,
+                         const std::vector<double> &values) const;
   };
 
   /// The solid of a symmetry other than isotropic, with its axes turned.

@@ -304,30 +304,34 @@ TEST(ElasticSymmetry, RejectsWhatIsNoSolid)
                     anisotropic = "set Symmetry = anisotropic\n";
   // Constants that are missing, or too many.
   expect(orthotropic, 2, {"Material/Young moduli", "nothing", "E1, E2, E3"});
-  expect(orthotropic + in_plane, 3, {"Material/Young moduli", "E1, E2, E3", "only plane stress"});
+  expect(orthotropic + in_plane, 3, {"Material/Young moduli", "E1, E2, E3", "plane stress alone"});
   expect(
-    strain_across + orthotropic + in_plane, 2, {"Material/Young moduli", "E1, E2, E3", "only plane stress"});
-  expect("set Symmetry = cubic\n" + in_plane, 2, {"Material/Young moduli", "1.448e+11, 1.17e+10", "E [Pa]"});
+    strain_across + orthotropic + in_plane, 2, {"Material/Young moduli", "E1, E2, E3", "plane stress alone"});
+  expect("set Symmetry = cubic\n" + in_plane, 2, {"Material/Young moduli", "E [Pa]"});
   expect("set Symmetry = transversely isotropic\n set Young moduli = 2, 1\n set Poisson ratios = 0.1, 0.1\n"
          "set Shear moduli = 1, 1\n",
          3,
-         {"Material/Shear moduli", "1, 1", "G12"});
+         {"Material/Shear moduli", "G12"});
   expect(
     nine + "subsection core\n set Poisson ratios = 0.1\n end\n", 3, {"Material/core/Poisson ratios", "nu13"});
+  // What was inherited stands on no line of the section and is shown as understood.
+  expect(nine + "subsection core\n set Symmetry = cubic\n end\n",
+         3,
+         {"Material/core/Young moduli", "1.448e+11, 1.17e+10, 9e+09"});
   expect(anisotropic, 2, {"Material/Stiffness", "nothing", "21 numbers, or the 6 of the plane"});
   expect(anisotropic + "set Stiffness = 1, 0, 0, 1, 0, 1\n", 3, {"Material/Stiffness", "21 numbers"});
-  expect(nine + turned("10, 20, 30"), 2, {"Material/Orientation", "10, 20, 30", "one angle"});
-  expect(nine + turned("10, 20"), 3, {"Material/Orientation", "10, 20", "Euler"});
+  expect(nine + turned("10, 20, 30"), 2, {"Material/Orientation", "one angle"});
+  expect(nine + turned("10, 20"), 3, {"Material/Orientation", "Euler"});
   // Values.
   expect("set Symmetry = cubic\n set Young moduli = -1\n set Poisson ratios = 0\n set Shear moduli = 1\n",
          3,
-         {"Material/Young moduli", "-1", "> 0"});
+         {"Material/Young moduli", "> 0"});
   expect("set Symmetry = cubic\n set Young moduli = 1\n set Poisson ratios = 0\n set Shear moduli = 0\n",
          3,
          {"Material/Shear moduli", "> 0"});
   expect("set Symmetry = cubic\n set Young moduli = 1\n set Poisson ratios = 0.5\n set Shear moduli = 1\n",
          3,
-         {"Material/Poisson ratios", "0.5", "positive definite"});
+         {"Material/Poisson ratios", "positive definite"});
   expect(
     anisotropic + "set Stiffness = 1, 9, 0, 1, 0, -3\n", 2, {"Material/Stiffness", "mean", "not positive"});
   std::string flat = anisotropic + "set Stiffness = 9, 0, 0, 0, 0, 0";
