@@ -16,7 +16,8 @@ namespace perideal
   {
     const bool consistent = parameters.model.is_consistent();
     if (thin_cells > 0)
-      return (parameters.model.is_tensor_involved() ? "moment corrected form: " : "energy form: ") + grouped(thin_cells) +
+      return (parameters.model.is_tensor_involved() ? "moment corrected form: " : "energy form: ") +
+             grouped(thin_cells) +
              " cells lie in parts one cell thick, across which the consistent form has no gradient" +
              (consistent ? "; two cells would do" : "");
     const std::string why =
@@ -24,7 +25,8 @@ namespace perideal
     if (consistent)
       return "consistent form (chosen): " + why;
     return "consistent form: " + why + ", where the " +
-           (parameters.model.has_forms() ? parameters.model.form + " form" : parameters.model.model + " model") +
+           (parameters.model.has_forms() ? parameters.model.form + " form" :
+                                           parameters.model.model + " model") +
            " is off by per cents at surfaces";
   }
 

@@ -88,8 +88,9 @@ namespace perideal
                    const Profiles<dim>   &profiles)
     {
       const char *components[] = {"u_x", "u_y", "u_z"};
-      const auto  errors       = field_errors(*scene.nodes, field, reference);
-      Json        result       = {{"l2", errors.l2}, {"max", errors.max}};
+      const auto  errors       = field_errors(
+        *scene.nodes, field, reference, [&](const LocalIndex i) { return scene.held.in_collar(i); });
+      Json result = {{"l2", errors.l2}, {"max", errors.max}};
       for (const auto &profile : profiles)
         {
           const auto along = profile_errors(*scene.nodes, profile.second.local_nodes(), field, reference);

@@ -50,10 +50,10 @@ namespace perideal
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
     result["quadrature"] = parameters.quadrature.scheme;
     result["model"]      = parameters.model.model;
-    result["variant"] = parameters.model.has_forms() ? parameters.model.form : "uncorrected";
-    result["families"] = {{"fallback", scene.family_counts.fallback},
-                          {"singular", scene.family_counts.singular},
-                          {"indefinite", scene.family_counts.indefinite}};
+    result["variant"]    = parameters.model.has_forms() ? parameters.model.form : "uncorrected";
+    result["families"]   = {{"fallback", scene.family_counts.fallback},
+                            {"singular", scene.family_counts.singular},
+                            {"indefinite", scene.family_counts.indefinite}};
     return result;
   }
 
@@ -127,8 +127,8 @@ namespace perideal
         << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)"
         << (parameters.quadrature.counts_parts() ? ", partial volumes at the horizon" : "") << '\n'
         << "model       " << parameters.model.model
-        << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "")
-        << ", " << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
+        << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "") << ", "
+        << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
     const FamilyCounts &counts = scene.family_counts;
     out << "families    " << grouped(counts.fallback) << " with fallback weights, "
         << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)

@@ -52,6 +52,7 @@ namespace perideal
                             const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
                             const unsigned int                                          n_layers)
     : n_conditions(loads.conditions.size())
+    , is_collar(n_layers > 1)
   {
     const CellGraph<dim> graph(mesh, nodes);
     for (unsigned int k = 0; k < n_conditions; ++k)

@@ -24,6 +24,8 @@ namespace perideal
     this->counts      = bonds->counts;
     this->reports     = bonds->reports;
     this->partitioner = graph.make_partitioner(dim);
+    for (LocalIndex i = 0; i < graph.n_local(); ++i)
+      place.push_back(this->partitioner->global_to_local(dim * graph.global_number(i)) / dim);
     ghosted.reinit(this->partitioner);
     forces.reinit(this->partitioner);
     traces.resize(graph.n_owned());
@@ -44,7 +46,7 @@ namespace perideal
         dealii::Tensor<2, dim> g;
         for (BondIndex m = rows.first[i]; m < rows.first[i + 1]; ++m)
           for (int k = 0; k < dim; ++k)
-            g[k] += ghosted.local_element(dim * rows.column[m] + k) * rows.value[m];
+            g[k] += ghosted.local_element(dim * place[rows.column[m]] + k) * rows.value[m];
         traces[i] = trace(g);
 
         const dealii::Tensor<2, dim> stress =
@@ -53,7 +55,7 @@ namespace perideal
           {
             const dealii::Tensor<1, dim> pull = stress * rows.value[m];
             for (int a = 0; a < dim; ++a)
-              forces.local_element(dim * rows.column[m] + a) += pull[a];
+              forces.local_element(dim * place[rows.column[m]] + a) += pull[a];
           }
       }
     ghosted.zero_out_ghost_values();
@@ -116,7 +118,8 @@ namespace perideal
   {
     return bonds->memory_consumption() + gradient->memory_consumption() +
            dealii::MemoryConsumption::memory_consumption(volume) +
-           dealii::MemoryConsumption::memory_consumption(traces) + ghosted.memory_consumption() +
+           dealii::MemoryConsumption::memory_consumption(traces) +
+           dealii::MemoryConsumption::memory_consumption(place) + ghosted.memory_consumption() +
            forces.memory_consumption();
   }
 

@@ -19,9 +19,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  FieldErrors field_errors(const Nodes<dim>                          &nodes,
-                           const std::vector<dealii::Tensor<1, dim>> &field,
-                           const std::vector<dealii::Tensor<1, dim>> &reference)
+  FieldErrors field_errors(const Nodes<dim>                            &nodes,
+                           const std::vector<dealii::Tensor<1, dim>>   &field,
+                           const std::vector<dealii::Tensor<1, dim>>   &reference,
+                           const std::function<bool(const LocalIndex)> &is_given)
   {
     AssertDimension(field.size(), nodes.size());
     AssertDimension(reference.size(), nodes.size());
@@ -29,6 +30,8 @@ namespace perideal
     std::vector<double> maxima(2, 0.);
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
+        if (is_given && is_given(i))
+          continue;
         const dealii::Tensor<1, dim> error = field[i] - reference[i];
         sums[0] += nodes.volume[i] * error.norm_square();
         sums[1] += nodes.volume[i] * reference[i].norm_square();
@@ -62,10 +65,12 @@ namespace perideal
 
   template FieldErrors field_errors(const Nodes<2> &,
                                     const std::vector<dealii::Tensor<1, 2>> &,
-                                    const std::vector<dealii::Tensor<1, 2>> &);
+                                    const std::vector<dealii::Tensor<1, 2>> &,
+                                    const std::function<bool(const LocalIndex)> &);
   template FieldErrors field_errors(const Nodes<3> &,
                                     const std::vector<dealii::Tensor<1, 3>> &,
-                                    const std::vector<dealii::Tensor<1, 3>> &);
+                                    const std::vector<dealii::Tensor<1, 3>> &,
+                                    const std::function<bool(const LocalIndex)> &);
 
   // The number 2 of std::array<double, 2> is no int, so it must be said here.
   template std::array<double, 2> profile_errors<2>(const Nodes<2> &,

@@ -4,6 +4,8 @@
 
 #include <perideal/boundary/boundary_faces.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace perideal
@@ -51,6 +53,14 @@ namespace perideal
     /// By dim*node + component: 1 where held.
     const std::vector<std::uint8_t> &mask() const { return held; }
 
+    /// Whether the whole displacement of an owned node is given, in a collar of more than one layer.
+    bool in_collar(const LocalIndex i) const
+    {
+      return is_collar && std::all_of(held.begin() + dim * i,
+                                      held.begin() + dim * (i + 1),
+                                      [](const std::uint8_t component) { return component != 0; });
+    }
+
     /// Evaluates what is prescribed at all entries. Collective.
     /// @throws InputError naming a function that is not a finite number somewhere.
     void check_finite(const Loads<dim> &loads, const double time, MPI_Comm communicator) const;
@@ -88,6 +98,7 @@ namespace perideal
     std::vector<Entry>        list;
     std::vector<std::uint8_t> held;
     unsigned int              n_conditions = 0;
+    bool                      is_collar    = false;
   };
 } // namespace perideal
 

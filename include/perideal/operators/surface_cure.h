@@ -53,6 +53,8 @@ namespace perideal
     std::vector<double>                                          volume;
     std::map<dealii::types::material_id, dealii::Tensor<4, dim>> defects;
 
+    /// Where the vectors below have the values of each local node of the gradient's graph, over dim.
+    std::vector<LocalIndex> place;
     // Work space of vmult().
     mutable NodalVector         ghosted, forces;
     mutable std::vector<double> traces;

@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace perideal
@@ -24,11 +25,13 @@ namespace perideal
    * Errors of @p field, one value for each of this rank's nodes. Not finite
    * where a value of the field is not; NaN where the reference is zero
    * everywhere and so is the field. Collective.
+   * @param is_given leaves out nodes, whose values are data and no result; empty: all count
    */
   template <int dim>
-  FieldErrors field_errors(const Nodes<dim>                          &nodes,
-                           const std::vector<dealii::Tensor<1, dim>> &field,
-                           const std::vector<dealii::Tensor<1, dim>> &reference);
+  FieldErrors field_errors(const Nodes<dim>                            &nodes,
+                           const std::vector<dealii::Tensor<1, dim>>   &field,
+                           const std::vector<dealii::Tensor<1, dim>>   &reference,
+                           const std::function<bool(const LocalIndex)> &is_given = {});
 
   /**
    * By component, the largest |u_c - ref_c| over @p selected nodes (those of a

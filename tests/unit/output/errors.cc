@@ -60,6 +60,18 @@ namespace
   };
 } // namespace
 
+TEST_F(TwoHalves, FieldErrorsLeaveOutWhatIsGiven)
+{
+  // Of the nodes that are no data: those with an error of 2 where the reference is 1, or of 1 where it is 5.
+  for (const double expected : {1., 5.})
+    {
+      const auto errors = field_errors(nodes, field, reference, [&](const LocalIndex i) {
+        return std::abs(reference[i].norm() - expected) > 1e-12;
+      });
+      EXPECT_NEAR(errors.l2, expected == 1. ? 2. : 1. / 5, 1e-14);
+    }
+}
+
 TEST_F(TwoHalves, FieldErrorsWeighVolumes)
 {
   const auto errors = field_errors(nodes, field, reference);
