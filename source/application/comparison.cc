@@ -41,12 +41,16 @@ namespace perideal
   }
 
   template <int dim>
-  NodalField<dim>
-  solve_reference(const SceneState<dim> &scene, const int refinements, const double time, Timings &timings)
+  NodalField<dim> solve_reference(const SceneState<dim>       &scene,
+                                  const Mesh<dim>             &mesh,
+                                  const SolidsByMaterial<dim> &solids,
+                                  const int                    refinements,
+                                  const double                 time,
+                                  Timings                     &timings)
   {
     const Timings::Scope scope(timings, "reference");
-    ElasticFem<dim>      fem(*scene.mesh, scene.loads, 2, refinements);
-    fem.assemble(scene.solids, time);
+    ElasticFem<dim>      fem(mesh, scene.loads, 2, refinements);
+    fem.assemble(solids, time);
     fem.set_up_solver();
     // Far below the discretisation errors that are to be seen.
     fem.solve(1e-10);
@@ -135,7 +139,12 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template NodalField<dim> solve_fem(                                                                        \
     const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);               \
-  template NodalField<dim> solve_reference(const SceneState<dim> &, const int, const double, Timings &);     \
+  template NodalField<dim> solve_reference(const SceneState<dim> &,                                          \
+                                           const Mesh<dim> &,                                                \
+                                           const SolidsByMaterial<dim> &,                                    \
+                                           const int,                                                        \
+                                           const double,                                                     \
+                                           Timings &);                                                       \
   template NodalField<dim> evaluate_exact(                                                                   \
     const SceneState<dim> &, const ComparisonParameters &, const double);                                    \
   template nlohmann::ordered_json compare(                                                                   \

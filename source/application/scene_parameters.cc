@@ -27,6 +27,13 @@ namespace perideal
                       "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself, -1 on the "
                       "mesh with one of its Mesh/Refinements less, for bodies that leave no room for more",
                       Integer(-1, 4));
+    prm.add_parameter(
+      "Reference mesh",
+      reference_mesh,
+      "Gmsh file of the same body, with the same names of boundaries and materials, on which the "
+      "reference is solved; empty: the mesh of the scene. It shows what a mesh makes of the body's "
+      "shape",
+      Anything());
     prm.add_parameter("Profiles",
                       profiles,
                       "Boundaries (physical names or ids) along which displacements are written to "
@@ -130,6 +137,15 @@ namespace perideal
       throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
         .parameter("Comparison/Reference refinements")
         .allowed("0 to 4, or -1 where Mesh/Refinements is 1 or more");
+    if (!comparison.reference_mesh.empty() && comparison.reference_refinements < 0)
+      throw InputError("a mesh of its own for the reference is not refined before")
+        .parameter("Comparison/Reference refinements")
+        .allowed("0 to 4 with a Reference mesh");
+    if (!comparison.reference_mesh.empty() && !comparison.reference &&
+        loads.displacement_treatment != "reference")
+      throw InputError("a mesh is given for a reference that is not asked for")
+        .parameter("Comparison/Reference mesh")
+        .hint("set Comparison/Reference = true, or remove it");
     for (const std::string &field : field_names())
       {
         const auto known = output_field_names();

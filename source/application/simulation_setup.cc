@@ -15,13 +15,34 @@
 
 namespace perideal
 {
+  namespace
+  {
+    template <int dim>
+    const MaterialProperties &properties_on(const Mesh<dim>                 &mesh,
+                                            const MaterialParameters        &materials,
+                                            const dealii::types::material_id id)
+    {
+      for (const auto &group : materials.groups)
+        if (mesh.material_id(group.first, "Material/" + group.first) == id)
+          return group.second;
+      return materials.body;
+    }
+  } // namespace
+
   template <int dim>
   const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id id) const
   {
-    for (const auto &group : parameters.material.groups)
-      if (scene.mesh->material_id(group.first, "Material/" + group.first) == id)
-        return group.second;
-    return parameters.material.body;
+    return properties_on(*scene.mesh, parameters.material, id);
+  }
+
+  template <int dim>
+  SolidsByMaterial<dim> Simulation<dim>::solids_on(const Mesh<dim> &mesh) const
+  {
+    SolidsByMaterial<dim> result;
+    for (const auto id : mesh.material_ids)
+      result[id] =
+        parameters.material.template elastic_solid<dim>(properties_on(mesh, parameters.material, id));
+    return result;
   }
 
   template <int dim>
@@ -44,8 +65,7 @@ namespace perideal
       scene.mesh->boundary_id(name, "Output/Boundary stress");
     for (const auto &group : parameters.material.groups)
       scene.mesh->material_id(group.first, "Material/" + group.first);
-    for (const auto id : scene.mesh->material_ids)
-      scene.solids[id] = parameters.material.elastic_solid<dim>(properties_of(id));
+    scene.solids = solids_on(*scene.mesh);
   }
 
   template <int dim>
@@ -191,10 +211,22 @@ namespace perideal
   {
     if (parameters.comparison.reference || parameters.loads.displacement_treatment == "reference")
       {
+        const std::string &file = parameters.comparison.reference_mesh;
         screen << "reference   Q2 finite elements, " << parameters.comparison.reference_refinements
-               << " refinement(s)" << std::endl;
-        scene.comparisons["reference"] =
-          solve_reference(scene, parameters.comparison.reference_refinements, 1., timings);
+               << " refinement(s)" << (file.empty() ? "" : " of " + file) << std::endl;
+        std::unique_ptr<Mesh<dim>> own_mesh;
+        if (!file.empty())
+          {
+            MeshParameters mesh = parameters.mesh;
+            mesh.file           = file;
+            mesh.generator.clear();
+            mesh.distortion  = 0.;
+            mesh.refinements = mesh.refine_times = 0;
+            own_mesh = create_mesh<dim>(mesh, communicator, context.scene_directory);
+          }
+        const Mesh<dim> &mesh          = own_mesh ? *own_mesh : *scene.mesh;
+        scene.comparisons["reference"] = solve_reference(
+          scene, mesh, solids_on(mesh), parameters.comparison.reference_refinements, 1., timings);
       }
   }
 

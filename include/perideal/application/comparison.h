@@ -19,10 +19,15 @@ namespace perideal
                             Timings                &timings,
                             nlohmann::ordered_json &report);
 
-  /// Q2 finite elements on the refined mesh, at the nodes. Collective.
+  /// Q2 finite elements on a mesh of the body, refined, at the nodes. Collective.
+  /// @param solids by the mesh's material ids
   template <int dim>
-  NodalField<dim>
-  solve_reference(const SceneState<dim> &scene, const int refinements, const double time, Timings &timings);
+  NodalField<dim> solve_reference(const SceneState<dim>       &scene,
+                                  const Mesh<dim>             &mesh,
+                                  const SolidsByMaterial<dim> &solids,
+                                  const int                    refinements,
+                                  const double                 time,
+                                  Timings                     &timings);
 
   /// The exact solution at the nodes.
   template <int dim>

@@ -33,6 +33,8 @@ namespace perideal
     bool reference = false;
     /// Refinements of the reference's mesh; -1: coarsened once.
     int reference_refinements = 1;
+    /// Gmsh file of the same body on which the reference is solved; empty: the scene's mesh.
+    std::string reference_mesh;
     /// Boundaries along which profiles are written.
     std::vector<std::string> profiles;
     /// Exact displacement by component, formulas in x, y, z, t; empty: none.

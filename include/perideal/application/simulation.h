@@ -65,6 +65,8 @@ namespace perideal
     bool by_nodes() const;
     /// The material of a cell group.
     const MaterialProperties &properties_of(const dealii::types::material_id id) const;
+    /// The solids of the cell groups of a mesh of the body.
+    SolidsByMaterial<dim> solids_on(const Mesh<dim> &mesh) const;
     /// Bulk and shear modulus by cell group, as the model takes them.
     SolidOf<dim> solid_of_model() const;
 
