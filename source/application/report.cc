@@ -276,11 +276,12 @@ namespace perideal
       const Json &branching = crack["branching"];
       if (branching.is_null())
         return "; no branches";
-      return "; branches at " + short_number(branching["reach"].get<double>()) + " m, " +
+      return "; " + std::to_string(branching["branches"].get<unsigned int>()) + " branches from " +
+             short_number(branching["reach"].get<double>()) + " m, " +
              short_number(branching["time"].get<double>()) + " s, " +
              (branching["full_angle"].is_number() ? short_number(branching["full_angle"].get<double>()) :
                                                     "-") +
-             " degrees apart";
+             " degrees between the outermost";
     }
   } // namespace
 

@@ -15,11 +15,11 @@ namespace perideal
     constexpr double widest_gap = 3.5;
     constexpr int    n_columns  = 12;
 
-    /// Middles of the outermost bands of a column.
+    /// The bands of a column, and the middles of the outermost.
     struct Bands
     {
-      bool   are_many = false;
-      double lowest = 0, highest = 0;
+      unsigned int number = 0;
+      double       lowest = 0, highest = 0;
     };
 
     Bands bands_of(std::vector<double> across, const double spacing)
@@ -36,12 +36,30 @@ namespace perideal
       const auto last_begin = std::adjacent_find(
         across.rbegin(), across.rend(), [&](const double a, const double b) { return is_gap(b, a); });
       Bands result;
-      if (first_end == across.end())
+      result.number = 1;
+      for (std::size_t k = 1; k < across.size(); ++k)
+        result.number += is_gap(across[k - 1], across[k]);
+      if (result.number == 1)
         return result;
-      result.are_many = true;
-      result.lowest   = mean(across.begin(), first_end + 1);
-      result.highest  = mean(across.rbegin(), last_begin + 1);
+      result.lowest  = mean(across.begin(), first_end + 1);
+      result.highest = mean(across.rbegin(), last_begin + 1);
       return result;
+    }
+
+    using Columns = std::map<long, Bands>;
+
+    /// The first of n_columns in a row with as many bands, or the end.
+    Columns::const_iterator find_run(const Columns &columns, const unsigned int n_bands)
+    {
+      return std::find_if(columns.begin(), columns.end(), [&](const auto &column) {
+        for (int k = 0; k < n_columns; ++k)
+          {
+            const auto other = columns.find(column.first + k);
+            if (other == columns.end() || other->second.number < n_bands)
+              return false;
+          }
+        return true;
+      });
     }
 
     double slope(const std::vector<double> &x, const std::vector<double> &y)
@@ -76,21 +94,15 @@ namespace perideal
     for (const auto &node : nodes)
       if (node[0] > 0)
         columns[std::lround(node[0] / spacing - phase)].push_back(node[1]);
-    std::map<long, Bands> bands;
+    Columns bands;
     for (const auto &column : columns)
-      {
-        const Bands found = bands_of(column.second, spacing);
-        if (found.are_many)
-          bands[column.first] = found;
-      }
-    const auto begin = std::find_if(bands.begin(), bands.end(), [&](const auto &column) {
-      for (int k = 1; k < n_columns; ++k)
-        if (bands.count(column.first + k) == 0)
-          return false;
-      return true;
-    });
+      bands[column.first] = bands_of(column.second, spacing);
+    const auto begin = find_run(bands, 2);
     if (begin == bands.end())
       return {};
+    unsigned int n_branches = 2;
+    while (find_run(bands, n_branches + 1) != bands.end())
+      ++n_branches;
 
     const auto          place = [&](const long column) { return (column + phase) * spacing; };
     const double        reach = place(begin->first);
@@ -99,10 +111,13 @@ namespace perideal
          column != bands.end() && place(column->first) <= reach + length + 1e-6 * spacing;
          ++column)
       {
+        if (column->second.number < 2)
+          continue;
         along.push_back(place(column->first));
         lowest.push_back(column->second.lowest);
         highest.push_back(column->second.highest);
       }
-    return Branching{reach, (std::atan(slope(along, highest)) - std::atan(slope(along, lowest))) * 180. / PI};
+    return Branching{
+      reach, (std::atan(slope(along, highest)) - std::atan(slope(along, lowest))) * 180. / PI, n_branches};
   }
 } // namespace perideal

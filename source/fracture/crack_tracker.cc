@@ -204,7 +204,10 @@ namespace perideal
     // When the tip came into that column.
     const auto after = std::find_if(
       front.begin(), front.end(), [&](const auto &at) { return at.first > found->reach - 0.5 * spacing; });
-    return {{"reach", found->reach}, {"time", after->second}, {"full_angle", found->full_angle}};
+    return {{"reach", found->reach},
+            {"time", after->second},
+            {"full_angle", found->full_angle},
+            {"branches", found->n_branches}};
   }
 
   template <int dim>

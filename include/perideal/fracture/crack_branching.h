@@ -15,6 +15,8 @@ namespace perideal
     double reach;
     /// Angle between the outermost branches [degrees].
     double full_angle;
+    /// The largest number of bands that twelve columns in a row hold at least.
+    unsigned int n_branches;
   };
 
   /**

@@ -87,8 +87,8 @@ namespace perideal
      * By crack: first_time [s]; angle [degrees] between its direction so far and the line of least squares
      * through its nodes; speed [m/s], the slope of its reach; reach [m]; arrivals [s] at the distances asked
      * for; where branches are looked for, branching: reach [m] along the direction, time [s] at which
-     * the tip was there, full_angle [degrees] (find_branching()). What there is not is null. As of the last
-     * collect().
+     * the tip was there, full_angle [degrees], branches: their number (find_branching()). What there is not
+     * is null. As of the last collect().
      */
     nlohmann::ordered_json describe() const;
 

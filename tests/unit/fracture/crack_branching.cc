@@ -45,7 +45,22 @@ TEST(CrackBranching, FindsPlaceAndAngle)
         EXPECT_NEAR(found->reach, apart, 3 * h) << angle << ' ' << shift;
         // Steps of a cell on 0.2 leave 2 degrees or so.
         EXPECT_NEAR(found->full_angle, angle, 2.5) << angle << ' ' << shift;
+        EXPECT_EQ(found->n_branches, 2u);
       }
+}
+
+TEST(CrackBranching, CountsBranches)
+{
+  // A third band in the middle of a wide fork, for long enough or not.
+  for (const double length : {0.3, 0.1})
+    {
+      auto nodes = forked(60., 0.5, 0.9);
+      for (double along = 0.55; along < 0.55 + length; along += h)
+        nodes.push_back({{along, 0.}});
+      const auto found = find_branching(nodes, h, 0.2);
+      ASSERT_TRUE(found.has_value());
+      EXPECT_EQ(found->n_branches, length > 12 * h ? 3u : 2u);
+    }
 }
 
 TEST(CrackBranching, IsNotFoundInOneBandNorInShortSpurs)
