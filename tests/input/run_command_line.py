@@ -50,6 +50,29 @@ def listed_scene(program, folder):
     return n_groups, [argument for value in values for argument in ("--set", value)]
 
 
+# Solids that --check warns of, with the words of the warning.
+TENSORS = """
+subsection Mesh
+  set Generator = box
+end
+subsection Material
+  set Model = tensor involved
+  set Form = one point
+  set Assumption = plane strain
+end
+subsection Boundary conditions
+  subsection left
+    set Boundary = left
+    set u_x = 0
+    set u_y = 0
+  end
+end
+"""
+WARNINGS = [(["Material/Poisson ratio=0.45", "Nodes/Horizon factor=2"], ["unstable at a horizon factor of 2"]),
+            (["Material/Poisson ratio=0.4"], ["push sideways"]),
+            (["Material/Symmetry=anisotropic", "Material/Stiffness=1e9, 2e9, 0, 1e9, 0, 1e9"], ["not positive definite"])]
+
+
 def main():
     parser = argparse.ArgumentParser(description="runs the options that solve nothing")
     parser.add_argument("--program", required=True, type=os.path.abspath)
@@ -67,6 +90,10 @@ def main():
                  (["--parameters", "markdown"], ["Horizon factor", "|"]),
                  (["--check", arguments.example], ["7,680"] + checked),
                  (["--check", "listed.prm"] + values, checked)]
+        (folder / "tensors.prm").write_text(TENSORS, encoding="utf-8")
+        for settings, warning in WARNINGS:
+            cases.append((["--check", "tensors.prm"] + [word for value in settings for word in ("--set", value)],
+                          checked + warning))
         n_deviating = 0
         for options, words in cases:
             found = deviations(arguments.program, folder, options, words)
