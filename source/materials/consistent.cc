@@ -17,6 +17,16 @@ namespace perideal
   {
   }
 
+  template <int dim>
+  double Consistent<dim>::stabilising_modulus(const ElasticSolid<dim> &solid)
+  {
+    const double shear = solid.isotropic().shear_modulus();
+    if (solid.is_isotropic())
+      return shear;
+    const double softest = 0.5 * smallest_stiffness(solid);
+    return softest > 0 ? softest : shear;
+  }
+
   template class Consistent<2>;
   template class Consistent<3>;
 } // namespace perideal

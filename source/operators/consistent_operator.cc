@@ -120,7 +120,7 @@ namespace perideal
     for (const auto id : families->material)
       {
         if (shear_modulus_of.count(id) == 0)
-          shear_modulus_of[id] = solid_of(id).isotropic().shear_modulus();
+          shear_modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
         shear_modulus.push_back(shear_modulus_of[id]);
       }
     for (LocalIndex i = 0; i < n_owned; ++i)
@@ -151,7 +151,7 @@ namespace perideal
           {
             const ElasticSolid<dim> from = solid_of(families->material[i]);
             Solid                   solid;
-            solid.shear_modulus = from.isotropic().shear_modulus();
+            solid.shear_modulus = Consistent<dim>::stabilising_modulus(from);
             for (unsigned int p = 0; p < n_pairs; ++p)
               for (unsigned int q = 0; q < n_pairs; ++q)
                 {

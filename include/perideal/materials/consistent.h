@@ -40,6 +40,13 @@ namespace perideal
     /// @param horizon_factor horizon over spacing [-]
     Consistent(const InfluenceFunction &influence, const double stabilisation, const double horizon_factor);
 
+    /// The modulus mu [Pa] that bonds of a solid stabilise with: its shear modulus, and without isotropy half
+    /// the stiffness against the strain that it resists least (the smallest eigenvalue of C on symmetric
+    /// tensors), which is the same for isotropic solids with a Poisson's ratio >= 0. With more, bonds that
+    /// resist all strains alike would stiffen the soft ones: laminates have then twice the error of finite
+    /// elements, with this half of it.
+    static double stabilising_modulus(const ElasticSolid<dim> &solid);
+
     /// What a family adds to the stiffness of a bond, b = 2 s mu V_i V_j wd/|xi|^2: with
     /// r = xi.(u_j-u_i) - xi.eps_i xi it stores b/2 r^2.
     /// @param distance_square of the other end in the family's horizon, 1 at its rim [-];

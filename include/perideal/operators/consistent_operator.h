@@ -69,7 +69,7 @@ namespace perideal
       std::vector<double> near, far;
     };
     using Pairs = std::array<double, n_pairs>;
-    /// What nodes are made of: C as a matrix on strain pairs, mean shear modulus [Pa].
+    /// What nodes are made of: C as a matrix on strain pairs, modulus of the bonds [Pa].
     struct Solid
     {
       std::array<Pairs, n_pairs> stiffness;

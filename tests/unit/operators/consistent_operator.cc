@@ -7,6 +7,7 @@
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"
+#include "solids.h"
 #include "testing.h"
 
 using namespace perideal;
@@ -19,14 +20,13 @@ namespace
   template <int dim>
   struct LoadedBody
   {
-    LoadedBody(const Mesh<dim>                     &mesh,
-               const LoadParameters                &text,
-               const std::vector<ElasticConstants> &materials)
+    LoadedBody(const Mesh<dim>                      &mesh,
+               const LoadParameters                 &text,
+               const std::vector<ElasticSolid<dim>> &materials)
       : body(mesh)
       , loads(text)
       , boundaries(resolve_boundaries(mesh, loads))
-      , solid_of(
-          [materials](const dealii::types::material_id id) { return ElasticSolid<dim>(materials[id]); })
+      , solid_of([materials](const dealii::types::material_id id) { return materials[id]; })
     {
       ModelParameters parameters;
       parameters.resolve(dim);
@@ -75,12 +75,12 @@ namespace
   template <int dim>
   struct Patch
   {
-    explicit Patch(const ElasticConstants &constants)
+    explicit Patch(const ElasticSolid<dim> &solid)
     {
       for (int r = 0; r < dim; ++r)
         for (int c = 0; c < dim; ++c)
           gradient[r][c] = 1e-3 * (1. + 2. * r - 0.7 * c + (r == c ? 0.3 : 0.) - 1.9 * r * c);
-      const ElasticState state = elastic_state<dim>(symmetrize(gradient), constants);
+      const ElasticState state = elastic_state<dim>(symmetrize(gradient), solid);
       for (int r = 0; r < dim; ++r)
         for (int c = r; c < dim; ++c)
           stress[r][c] = state.stress[r][c];
@@ -124,27 +124,34 @@ namespace
     return {70e9, 0.3, dim == 2 ? PlaneAssumption::plane_stress : PlaneAssumption::solid};
   }
 
+  /// An isotropic solid and one without any symmetry.
   template <int dim>
-  void expect_patch_under_tractions()
+  std::vector<ElasticSolid<dim>> solids()
+  {
+    return {constants<dim>(), test::solid_without_symmetry<dim>()};
+  }
+
+  template <int dim>
+  void expect_patch_under_tractions(const ElasticSolid<dim> &solid)
   {
     for (const auto &mesh : test::make_boxes<dim>())
       {
-        const Patch<dim> patch(constants<dim>());
+        const Patch<dim> patch(solid);
         LoadParameters   text;
         for (unsigned int id = 0; id < 2 * dim; ++id)
           text.conditions.push_back(patch.pulled(id));
-        LoadedBody<dim> loaded(*mesh, text, {constants<dim>()});
+        LoadedBody<dim> loaded(*mesh, text, {solid});
         EXPECT_LE(loaded.residual(patch), 1e-11);
       }
   }
 
   template <int dim>
-  void expect_patch_under_mixed_conditions()
+  void expect_patch_under_mixed_conditions(const ElasticSolid<dim> &solid)
   {
     for (const auto &mesh : test::make_boxes<dim>())
       {
         // The left face is held altogether, the right one along x only, the rest is pulled.
-        const Patch<dim> patch(constants<dim>());
+        const Patch<dim> patch(solid);
         LoadParameters   text;
         for (unsigned int id = 0; id < 2 * dim; ++id)
           text.conditions.push_back(patch.pulled(id));
@@ -155,7 +162,7 @@ namespace
           }
         text.conditions[1].traction[0].clear();
         text.conditions[1].displacement[0] = patch.formula(0);
-        LoadedBody<dim> loaded(*mesh, text, {constants<dim>()});
+        LoadedBody<dim> loaded(*mesh, text, {solid});
         EXPECT_LE(loaded.residual(patch), 1e-11);
 
         // Reactions: minus the resultant of all the tractions, and sigma A each.
@@ -203,7 +210,7 @@ namespace
         else
           text.conditions[id].traction[0] = Patch<dim>::number(pull);
       }
-    LoadedBody<dim> loaded(*mesh, text, materials);
+    LoadedBody<dim> loaded(*mesh, text, {materials[0], materials[1]});
     EXPECT_LE(loaded.residual([&](const dealii::Point<dim> &x) {
       dealii::Tensor<1, dim> u;
       u[0] = pull / wave(0) * std::min(x[0], 0.5) + pull / wave(1) * std::max(x[0] - 0.5, 0.);
@@ -229,19 +236,23 @@ namespace
 
 TEST(ConsistentOperator, PatchUnderTractions2D)
 {
-  expect_patch_under_tractions<2>();
+  for (const auto &solid : solids<2>())
+    expect_patch_under_tractions(solid);
 }
 TEST(ConsistentOperator, PatchUnderTractions3D)
 {
-  expect_patch_under_tractions<3>();
+  for (const auto &solid : solids<3>())
+    expect_patch_under_tractions(solid);
 }
 TEST(ConsistentOperator, PatchUnderMixedConditions2D)
 {
-  expect_patch_under_mixed_conditions<2>();
+  for (const auto &solid : solids<2>())
+    expect_patch_under_mixed_conditions(solid);
 }
 TEST(ConsistentOperator, PatchUnderMixedConditions3D)
 {
-  expect_patch_under_mixed_conditions<3>();
+  for (const auto &solid : solids<3>())
+    expect_patch_under_mixed_conditions(solid);
 }
 TEST(ConsistentOperator, PatchOfTwoMaterials2D)
 {
