@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/scene_parameters.h>
+#include <perideal/base/registry.h>
+
+// SceneParameters: what goes together.
+
+namespace perideal
+{
+  void SceneParameters::resolve()
+  {
+    model.resolve(dimension,
+                  solver.is_dynamic() || solver.is_relaxation() ? ModelParameters::Use::motion :
+                                                                  ModelParameters::Use::statics);
+    if (solver.is_dynamic())
+      check_dynamics();
+    else if (solver.is_relaxation())
+      check_relaxation();
+    else
+      check_statics();
+    const auto check_symmetry = [this](const MaterialProperties &properties) {
+      if (!properties.symmetry.is_isotropic() && !model.is_tensor_involved())
+        throw InputError("this model is one of isotropic materials")
+          .parameter(properties.symmetry.section + "/Symmetry")
+          .given(properties.symmetry.name)
+          .allowed("isotropic; or set Material/Model = tensor involved");
+    };
+    check_symmetry(material.body);
+    for (const auto &group : material.groups)
+      check_symmetry(group.second);
+    const bool   consistent = model.is_consistent();
+    std::string &treatment  = loads.displacement_treatment;
+    if (treatment == "automatic")
+      treatment = consistent ? "face value" : "layer";
+    if (treatment == "face value" && !consistent)
+      throw InputError("only the consistent form reads values at faces")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer | reference | mirror for this model")
+        .hint("or set Material/Form = consistent");
+    if (loads.layers > 1 && treatment != "layer" && treatment != "reference")
+      throw InputError("this treatment holds no nodes, of which there could be more layers")
+        .parameter("Boundary conditions/Layers")
+        .given(std::to_string(loads.layers))
+        .allowed("1 for Displacement treatment = " + treatment)
+        .hint("set Boundary conditions/Displacement treatment = layer");
+    // The consistent form leaves the choice to the mesh.
+    if (nodes.horizon_shape == "automatic" && !consistent)
+      nodes.horizon_shape = "sphere";
+    if (nodes.horizon_shape == "cell" && !consistent)
+      throw InputError("the weights of this model are those of spheres")
+        .parameter("Nodes/Horizon shape")
+        .given(nodes.horizon_shape)
+        .allowed("automatic | sphere; or set Material/Form = consistent");
+    if (quadrature.counts_parts() && consistent)
+      throw InputError(
+        "the bonds of the consistent form only stabilise it, for which their whole volumes serve")
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .allowed("one point; or set Material/Form = energy | paper, or another Material/Model");
+    if (treatment == "mirror" && consistent)
+      throw InputError("mirrored nodes have no cells, which the consistent form needs")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | face value | layer | reference for the consistent form");
+  }
+
+  void SceneParameters::check_dynamics() const
+  {
+    if (model.is_linear_only())
+      throw InputError("this form is one of linear statics")
+        .parameter("Material/Form")
+        .given(model.form)
+        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamics");
+    const std::string &treatment = loads.displacement_treatment;
+    if (treatment != "automatic" && treatment != "layer")
+      throw InputError("dynamics hold the nodes at a boundary")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer in dynamics");
+    if (comparison.fem || comparison.reference)
+      throw InputError("the finite elements that dynamics would be compared with are static")
+        .parameter(comparison.fem ? "Comparison/FEM" : "Comparison/Reference")
+        .hint("set it to false");
+    if (!boundary_stress.empty())
+      throw InputError("boundary stresses are those of statics").parameter("Output/Boundary stress");
+  }
+
+  void SceneParameters::check_no_motion() const
+  {
+    const auto complain = [](const std::string &parameter) {
+      throw InputError("this belongs to dynamics").parameter(parameter).hint("set Solver/Name = dynamics");
+    };
+    const char *axes[] = {"x", "y", "z"};
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        for (const auto &condition : loads.conditions)
+          if (!condition.velocity[d].empty())
+            complain("Boundary conditions/" + condition.name + "/v_" + axes[d]);
+        if (!initial.velocity[d].empty())
+          complain(std::string("Initial conditions/v_") + axes[d]);
+      }
+    if (checkpoints.steps > 0)
+      complain("Checkpoints/Steps");
+    if (checkpoints.restart)
+      complain("Checkpoints/Restart");
+    if (model.recomputes())
+      complain("Material/Multipliers");
+  }
+
+  void SceneParameters::check_relaxation() const
+  {
+    if (model.is_linear_only())
+      throw InputError("this form is one of linear statics")
+        .parameter("Material/Form")
+        .given(model.form)
+        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamic relaxation");
+    const std::string &treatment = loads.displacement_treatment;
+    if (treatment != "automatic" && treatment != "layer")
+      throw InputError("dynamic relaxation holds the nodes at a boundary")
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(treatment)
+        .allowed("automatic | layer in dynamic relaxation");
+    check_no_motion();
+    for (const std::string &field : field_names())
+      if (field == "velocity")
+        throw InputError("this field belongs to dynamics")
+          .parameter("Output/Fields")
+          .given(field)
+          .hint("remove it, or set Solver/Name = dynamics");
+    if ((comparison.fem || comparison.reference) && !precracks.cracks.empty())
+      throw InputError("the finite elements that the solution would be compared with have no cracks")
+        .parameter(comparison.fem ? "Comparison/FEM" : "Comparison/Reference")
+        .hint("set it to false, or remove the section Precracks");
+  }
+
+  void SceneParameters::check_statics() const
+  {
+    const auto complain = [](const std::string &parameter) {
+      throw InputError("this belongs to dynamics and dynamic relaxation")
+        .parameter(parameter)
+        .hint("set Solver/Name = dynamics, or = dynamic relaxation");
+    };
+    check_no_motion();
+    for (const std::string &field : field_names())
+      if (field == "velocity" || field == "damage" || field == "precracks")
+        throw InputError("this field belongs to dynamics")
+          .parameter("Output/Fields")
+          .given(field)
+          .hint("remove it, or set Solver/Name = dynamics");
+    if (!cracks.cracks.empty())
+      complain("Cracks/" + cracks.cracks.front().name);
+    if (!precracks.cracks.empty())
+      complain("Precracks/" + precracks.cracks.front().name);
+    if (!no_fail.zones.empty())
+      complain("No-fail zones/" + no_fail.zones.front().name);
+    if (model.after_the_cut())
+      complain("Material/Multipliers");
+    if (contact.enabled == "true")
+      complain("Contact/Enabled");
+    if (solver.relative_damping > 0)
+      complain("Solver/Relative damping");
+  }
+} // namespace perideal
