@@ -16,6 +16,7 @@ namespace perideal
     std::vector<BondCursor::End> ends;
     FamilyView<dim>              view;
     FamilyCoefficients           coefficients;
+    dealii::types::material_id   material = dealii::numbers::invalid_material_id;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
         view.reinit(
@@ -23,7 +24,12 @@ namespace perideal
           i,
           is_cut ? [&](const LocalIndex j) { return is_cut(families->position[i], families->position[j]); } :
                    std::function<bool(const LocalIndex)>());
-        view.set_solid(solid_of(families->material[i]));
+        // Neighbours on the curve are mostly of one material.
+        if (families->material[i] != material)
+          {
+            material = families->material[i];
+            view.set_solid(solid_of(material));
+          }
         coefficients.resize(view.size, shape);
         model.compute(view, coefficients);
         reports[i] = coefficients.report;
