@@ -29,6 +29,7 @@ CASES = [
     ("ordinary", ["Material/Model=ordinary"], "lps"),
     ("paper form", ["Material/Form=paper"], None),
     ("energy form", ["Material/Form=energy"], None),
+    ("tensor involved", ["Material/Model=tensor involved"], None),
 ]
 
 
