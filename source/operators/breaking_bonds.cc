@@ -61,7 +61,8 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::move_nodes(const NodalVector &displacement)
+  void BreakingBonds<dim>::move_nodes(const NodalVector                 &displacement,
+                                      dealii::AlignedVector<NodeRecord> *records)
   {
     n_lost_before             = this->lost.size();
     const NodalVector *source = &displacement;
@@ -74,6 +75,10 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         position[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
+    if (records != nullptr)
+      for (LocalIndex i = 0; i < families->n_local(); ++i)
+        for (int d = 0; d < dim; ++d)
+          (*records)[i].value[d] = source->local_element(dim * i + d);
     // A displacement that rounding takes from the position has moved nothing.
     regions.update([&](const LocalIndex i) {
       for (int d = 0; d < dim; ++d)

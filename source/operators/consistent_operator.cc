@@ -115,13 +115,13 @@ namespace perideal
   {
     stiffness.near.assign(bonds.n_slots(), 0.);
     stiffness.far.assign(bonds.n_slots(), 0.);
-    std::map<dealii::types::material_id, double> shear_modulus_of;
-    std::vector<double>                          shear_modulus;
+    std::map<dealii::types::material_id, double> modulus_of;
+    std::vector<double>                          bond_modulus;
     for (const auto id : families->material)
       {
-        if (shear_modulus_of.count(id) == 0)
-          shear_modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
-        shear_modulus.push_back(shear_modulus_of[id]);
+        if (modulus_of.count(id) == 0)
+          modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
+        bond_modulus.push_back(modulus_of[id]);
       }
     for (LocalIndex i = 0; i < n_owned; ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
@@ -132,9 +132,9 @@ namespace perideal
           const auto   bond          = families->position[j] - families->position[i];
           const double length_square = bond.norm_square();
           stiffness.near[k]          = model.bond_stiffness(
-            length_square, distance_square(i, bond), families->volume[j], shear_modulus[i]);
+            length_square, distance_square(i, bond), families->volume[j], bond_modulus[i]);
           stiffness.far[k] = model.bond_stiffness(
-            length_square, distance_square(j, bond), families->volume[i], shear_modulus[j]);
+            length_square, distance_square(j, bond), families->volume[i], bond_modulus[j]);
         }
     for (LocalIndex &j : bonds.neighbour)
       j = node_of_member[j];
@@ -151,7 +151,7 @@ namespace perideal
           {
             const ElasticSolid<dim> from = solid_of(families->material[i]);
             Solid                   solid;
-            solid.shear_modulus = Consistent<dim>::stabilising_modulus(from);
+            solid.bond_modulus = Consistent<dim>::stabilising_modulus(from);
             for (unsigned int p = 0; p < n_pairs; ++p)
               for (unsigned int q = 0; q < n_pairs; ++q)
                 {

@@ -70,7 +70,7 @@ namespace perideal
                 model.bond_stiffness(bond.norm_square(),
                                      distance_square(i, bond),
                                      families->volume[*m],
-                                     solids[solid_of_node[i]].shear_modulus));
+                                     solids[solid_of_node[i]].bond_modulus));
         }
   }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/operators/nodal_records.h>
 #include <perideal/operators/tensor_force.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,7 +10,6 @@ namespace perideal
   template <int dim>
   TensorForce<dim>::TensorForce(const TensorWeights<dim> &weights)
     : BreakingBonds<dim>(weights, false)
-    , ghosted_displacement(this->partitioner)
   {
     for (unsigned int p = 0; p < tensors.n_components; ++p)
       tensors.component[p].assign(weights.component[p].begin(), weights.component[p].end());
@@ -97,8 +95,7 @@ namespace perideal
   void TensorForce<dim>::compute(NodalVector &force, const NodalVector &displacement)
   {
     broken_now.clear();
-    this->move_nodes(displacement);
-    import_nodal_records<dim>(displacement, ghosted_displacement, displacements);
+    this->move_nodes(displacement, &displacements);
     if (this->can_break())
       sum_forces<true>();
     else
@@ -156,8 +153,7 @@ namespace perideal
   template <int dim>
   std::size_t TensorForce<dim>::memory_consumption() const
   {
-    return this->breaking_memory() + tensors.tensors_memory() + displacements.size() * sizeof(NodeRecord) +
-           ghosted_displacement.memory_consumption();
+    return this->breaking_memory() + tensors.tensors_memory() + displacements.size() * sizeof(NodeRecord);
   }
 
   template class TensorForce<2>;

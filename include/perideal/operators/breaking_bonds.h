@@ -46,7 +46,9 @@ namespace perideal
     bool can_break() const { return judges_bonds && !critical_stretch.empty(); }
 
     /// Takes the displacement; from here on bonds break now. Collective.
-    void move_nodes(const NodalVector &displacement);
+    /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
+    /// null
+    void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
 
     /// Breaks a bond, the weights of which the caller has looked at.
     void break_bond(const BondIndex slot, const LocalIndex near);

@@ -73,7 +73,7 @@ namespace perideal
     struct Solid
     {
       std::array<Pairs, n_pairs> stiffness;
-      double                     shear_modulus;
+      double                     bond_modulus;
     };
     /// A vector of pairs as the bond loop reads it: 2-D one record (xx, yy, xy, 0),
     /// 3-D two: (xx, yy, zz, 0), (xy, yz, zx, 0).

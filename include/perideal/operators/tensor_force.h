@@ -63,7 +63,6 @@ namespace perideal
 
     BondTensors<float, dim>           tensors;
     dealii::AlignedVector<NodeRecord> displacements;
-    NodalVector                       ghosted_displacement;
     std::vector<BrokenBond>           broken_now;
   };
 } // namespace perideal
