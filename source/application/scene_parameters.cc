@@ -124,6 +124,7 @@ namespace perideal
     declare(prm, file);
     file.apply(prm);
     nodes.check();
+    quadrature.check();
     material.check(dimension);
     solver.check();
     cracks.check();

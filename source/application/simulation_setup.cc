@@ -150,6 +150,8 @@ namespace perideal
           solid_of);
         scene.bonds = scene.consistent;
       }
+    else if (parameters.quadrature.has_gauss_points())
+      weigh_gauss_points();
     else
       {
         const Timings::Scope part(timings, "setup: weights");

@@ -59,6 +59,7 @@ namespace perideal
     void prepare_comparisons();
     void make_gradient();
     void weigh_bonds();
+    void weigh_gauss_points();
     void set_up_solver();
 
     /// Whether prescribed displacements hold nodes, and not images or faces.

@@ -27,6 +27,9 @@ namespace perideal
     bool        is_symmetric() const override { return true; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 
+    /// c of a node with a horizon [N/m^6]; kappa of the problem's dimension [Pa].
+    static double micromodulus(const double bulk_modulus, const double horizon, const double thickness);
+
     /// The Poisson's ratio that bonds alone have.
     static double poisson_ratio(const PlaneAssumption assumption)
     {

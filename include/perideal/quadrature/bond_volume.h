@@ -13,15 +13,24 @@ namespace perideal
   /// Section "Quadrature".
   struct QuadratureParameters
   {
-    /// one point | partial volume: how much of a neighbour's volume a bond counts.
+    /// one point | partial volume | gauss points: how much of a neighbour's volume a bond counts, and where.
     std::string scheme = "one point";
+    /// Gauss points of a cell in each direction, and radius of the supports of moving least squares, in
+    /// spacings of the cell [-].
+    unsigned int gauss_points   = 2;
+    double       support_radius = 3.;
 
     void declare(dealii::ParameterHandler &prm);
+    /// @throws InputError on supports that hold no points.
+    void check() const;
+
+    /// Whether cells have several points, whose displacements are interpolated.
+    bool has_gauss_points() const { return scheme == "gauss points"; }
 
     bool counts_parts() const { return scheme == "partial volume"; }
 
     /// How far families reach beyond horizons, in spacings of the neighbour [-]: NodeCloud::margin.
-    double margin() const { return counts_parts() ? 0.5 : 0.; }
+    double margin() const { return has_gauss_points() ? 0.87 : counts_parts() ? 0.5 : 0.; }
   };
 
   /**

@@ -36,9 +36,8 @@ namespace perideal
 
     /// Fits about @p x to the points within @p radius [m]. False when they make no quadratic fit;
     /// problem() says why.
-    bool reinit(const dealii::Point<dim>              &x,
-                const std::vector<dealii::Point<dim>> &points,
-                const double                           radius);
+    bool
+    reinit(const dealii::Point<dim> &x, const std::vector<dealii::Point<dim>> &points, const double radius);
 
     /// phi_k, by points of reinit(); 0 beyond the radius.
     const std::vector<double> &weights() const { return phi; }

@@ -46,7 +46,8 @@ namespace
 
 template <typename T>
 class MovingLeastSquaresOf : public testing::Test
-{};
+{
+};
 using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(MovingLeastSquaresOf, Dimensions);
 
