@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/comparison.h>
+#include <perideal/base/exceptions.h>
 #include <perideal/output/errors.h>
 #include <perideal/output/profiles.h>
+#include <perideal/parameters/point_text.h>
 
 namespace perideal
 {
@@ -83,7 +85,7 @@ namespace perideal
   namespace
   {
     template <int dim>
-    using Profiles = std::vector<std::pair<std::string, BoundaryProfile<dim>>>;
+    using Profiles = std::vector<std::pair<std::string, std::unique_ptr<Profile<dim>>>>;
 
     template <int dim>
     Json errors_of(const SceneState<dim> &scene,
@@ -97,7 +99,7 @@ namespace perideal
       Json result = {{"l2", errors.l2}, {"max", errors.max}};
       for (const auto &profile : profiles)
         {
-          const auto along = profile_errors(*scene.nodes, profile.second.local_nodes(), field, reference);
+          const auto along = profile_errors(*scene.nodes, profile.second->local_nodes(), field, reference);
           for (int d = 0; d < dim; ++d)
             result["profiles"][profile.first][components[d]] = along[d];
         }
@@ -106,16 +108,48 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  Json compare(const SceneState<dim>          &scene,
-               const std::vector<std::string> &profile_names,
-               const std::string              &output_directory)
+  std::pair<dealii::Point<dim>, dealii::Point<dim>> ends_of(const LineText &line)
+  {
+    const std::string section = "Comparison/" + line.name;
+    const std::pair   result{read_point<dim>(line.from, section + "/From"),
+                           read_point<dim>(line.to, section + "/To")};
+    if (result.first == result.second)
+      throw InputError("the line has no length").parameter(section + "/To").given(line.to);
+    return result;
+  }
+
+  template <int dim>
+  void check_lines(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::vector<LineText> &lines)
+  {
+    for (const LineText &line : lines)
+      {
+        const auto [from, to] = ends_of<dim>(line);
+        const auto   found    = LineProfile<dim>(mesh, nodes, from, to).local_nodes().size();
+        const double all      = dealii::Utilities::MPI::sum(static_cast<double>(found), nodes.communicator);
+        if (all == 0)
+          throw InputError("the line passes through no cell of the body")
+            .parameter("Comparison/" + line.name)
+            .given(line.from + " to " + line.to);
+      }
+  }
+
+  template <int dim>
+  Json compare(const SceneState<dim>      &scene,
+               const ComparisonParameters &parameters,
+               const std::string          &output_directory)
   {
     Profiles<dim> profiles;
-    for (const std::string &name : profile_names)
-      profiles.emplace_back(name,
-                            BoundaryProfile<dim>(*scene.mesh,
-                                                 *scene.nodes,
-                                                 scene.mesh->boundary_id(name, "Comparison/Profiles")));
+    for (const std::string &name : parameters.profiles)
+      profiles.emplace_back(
+        name,
+        std::make_unique<BoundaryProfile<dim>>(
+          *scene.mesh, *scene.nodes, scene.mesh->boundary_id(name, "Comparison/Profiles")));
+    for (const LineText &line : parameters.lines)
+      {
+        const auto [from, to] = ends_of<dim>(line);
+        profiles.emplace_back(line.name,
+                              std::make_unique<LineProfile<dim>>(*scene.mesh, *scene.nodes, from, to));
+      }
 
     Json result = Json::object();
     for (const auto &solution : scene.comparisons)
@@ -129,9 +163,9 @@ namespace perideal
 
     for (const auto &profile : profiles)
       {
-        std::vector<typename BoundaryProfile<dim>::NamedField> fields = {{"perideal", scene.displacement}};
+        std::vector<typename Profile<dim>::NamedField> fields = {{"perideal", scene.displacement}};
         fields.insert(fields.end(), scene.comparisons.begin(), scene.comparisons.end());
-        profile.second.write(output_directory + "/profile_" + profile.first + ".csv", fields);
+        profile.second->write(output_directory + "/profile_" + profile.first + ".csv", fields);
       }
     return result;
   }
@@ -147,8 +181,10 @@ namespace perideal
                                            Timings &);                                                       \
   template NodalField<dim> evaluate_exact(                                                                   \
     const SceneState<dim> &, const ComparisonParameters &, const double);                                    \
+  template std::pair<dealii::Point<dim>, dealii::Point<dim>> ends_of(const LineText &);                      \
+  template void check_lines(const Mesh<dim> &, const Nodes<dim> &, const std::vector<LineText> &);           \
   template nlohmann::ordered_json compare(                                                                   \
-    const SceneState<dim> &, const std::vector<std::string> &, const std::string &);
+    const SceneState<dim> &, const ComparisonParameters &, const std::string &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -46,6 +46,7 @@ namespace perideal
                            "subsection Point loads\n subsection ANY NAME\n end\nend\n"
                            "subsection Precracks\n subsection ANY NAME\n end\nend\n"
                            "subsection No-fail zones\n subsection ANY NAME\n end\nend\n"
+                           "subsection Comparison\n subsection ANY NAME\n end\nend\n"
                            "subsection Cracks\n subsection ANY NAME\n end\nend\n",
                            "");
     SceneParameters          scene;

@@ -62,6 +62,50 @@ namespace perideal
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)
         .allowed("automatic | face value | layer | reference for the consistent form");
+    check_gauss_points();
+    resolve_tractions();
+  }
+
+  void SceneParameters::check_gauss_points() const
+  {
+    if (!quadrature.has_gauss_points())
+      return;
+    const auto complain = [this](const std::string &what) {
+      throw InputError("Gauss points serve springs in statics only, " + what)
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .hint("choose another scheme");
+    };
+    if (model.model != "bond based")
+      complain("not Material/Model = " + model.model);
+    if (solver.is_dynamic() || solver.is_relaxation())
+      complain("not Solver/Name = " + solver.name);
+    if (loads.displacement_treatment == "mirror")
+      complain("and mirrored nodes have no cells");
+  }
+
+  void SceneParameters::resolve_tractions()
+  {
+    std::string &treatment  = loads.traction_treatment;
+    const bool   consistent = model.is_consistent();
+    const auto   complain   = [&](const std::string &problem, const std::string &allowed) {
+      throw InputError(problem)
+        .parameter("Boundary conditions/Traction treatment")
+        .given(treatment)
+        .allowed(allowed);
+    };
+    if (consistent && treatment != "automatic")
+      complain("the consistent form takes tractions at faces", "automatic for this form");
+    if (treatment == "automatic")
+      treatment = consistent ? "face" : "layer";
+    if (loads.has_missing_bonds() && (solver.is_dynamic() || solver.is_relaxation()))
+      complain("what missing bonds do follows from linear statics", "automatic | layer for this solver");
+    if (loads.has_missing_bonds() && (model.has_surface_cure() || loads.displacement_treatment == "mirror"))
+      complain("the surface has its missing bonds by other means",
+               "automatic | layer with the surface cure or mirrored nodes");
+    if (loads.has_line_to_point() && (model.model != "bond based" || dimension != 3))
+      complain("the closed form is that of bond-based peridynamics in 3-D",
+               "automatic | layer | missing bonds for this scene");
   }
 
   void SceneParameters::check_dynamics() const

@@ -2,6 +2,7 @@
 #include <perideal/application/output_fields.h>
 #include <perideal/application/scene_parameters.h>
 #include <perideal/base/registry.h>
+#include <perideal/parameters/named_texts.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -9,7 +10,7 @@
 
 namespace perideal
 {
-  void ComparisonParameters::declare(dealii::ParameterHandler &prm)
+  void ComparisonParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Comparison");
@@ -41,6 +42,17 @@ namespace perideal
                         exact[d],
                         std::string("Exact displacement along ") + axes[d] +
                           " [m], a formula in x, y, z, t; empty: not known");
+    lines = named_texts<LineText>(file, "Comparison");
+    for (LineText &line : lines)
+      {
+        prm.enter_subsection(line.name);
+        prm.add_parameter("From", line.from, "Where a line through the body begins: coordinates [m]");
+        prm.add_parameter("To",
+                          line.to,
+                          "Where it ends: coordinates [m]. Along it displacements are written to "
+                          "profile_NAME.csv and compared");
+        prm.leave_subsection();
+      }
     prm.leave_subsection();
   }
 
@@ -94,7 +106,7 @@ namespace perideal
     cracks.declare(prm, file);
     checkpoints.declare(prm);
     contact.declare(prm);
-    comparison.declare(prm);
+    comparison.declare(prm, file);
     prm.enter_subsection("Output");
     prm.add_parameter(
       "Fields",

@@ -7,7 +7,6 @@
 #include <perideal/application/simulation.h>
 #include <perideal/application/versions.h>
 #include <perideal/base/exceptions.h>
-#include <perideal/boundary/nodal_forces.h>
 #include <perideal/operators/mirror_reactions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
@@ -98,49 +97,6 @@ namespace perideal
     solve_equilibrium(time);
     record_step(number, time);
     write_fields(number, time);
-  }
-
-  template <int dim>
-  void Simulation<dim>::apply_loads(const double time)
-  {
-    scene.mirror->set_time(scene.loads, time);
-    if (scene.face_values)
-      scene.face_values->set_time(scene.loads, time);
-    if (scene.consistent)
-      compute_nodal_forces(
-        *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
-    else
-      compute_nodal_forces(
-        *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, time, external_force);
-    scene.point_forces.add(scene.loads, time, external_force);
-    if (parameters.loads.displacement_treatment == "reference")
-      {
-        // The reference belongs to the final loads; linear scenes scale.
-        NodalField<dim> values = scene.comparisons.at("reference");
-        for (auto &value : values)
-          value *= time;
-        scene.held.set_nodal_values(values, displacement);
-      }
-    else
-      scene.held.set_boundary_values(scene.loads, time, displacement);
-  }
-
-  template <int dim>
-  void Simulation<dim>::check_loads()
-  {
-    scene.system->initialize(displacement);
-    scene.system->initialize(external_force);
-    check_finite(scene.faces, scene.loads, scene.condition_boundaries, 1., communicator);
-    scene.held.check_finite(scene.loads, 1., communicator);
-    apply_loads(1.);
-    NodalVector residual;
-    scene.system->initialize(residual);
-    scene.system->residual(residual, external_force, displacement);
-    if (scene.null_space.share_in(residual) > 1e-6)
-      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
-        .parameter("Boundary conditions/Rigid body motions")
-        .hint("balance the loads, or hold the body");
-    displacement = 0.;
   }
 
   template <int dim>
@@ -256,7 +212,7 @@ namespace perideal
     if (!(exact[0].empty() && exact[1].empty() && exact[2].empty()))
       scene.comparisons["exact"] = evaluate_exact(scene, parameters.comparison, time);
     const Timings::Scope scope(timings, "output");
-    summary["errors"] = compare(scene, parameters.comparison.profiles, parameters.output_directory);
+    summary["errors"] = compare(scene, parameters.comparison, parameters.output_directory);
   }
 
   template <int dim>

@@ -3,7 +3,6 @@
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/base/stop_request.h>
-#include <perideal/boundary/nodal_forces.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/critical_stretch.h>
 #include <perideal/fracture/fragments.h>
@@ -203,12 +202,7 @@ namespace perideal
     check_finite(
       scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
     scene.held.check_finite(scene.loads, parameters.solver.end_time, communicator);
-    const auto set_loads = [&]() {
-      compute_nodal_forces(
-        *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, dynamics.time(), external_force);
-      scene.point_forces.add(scene.loads, dynamics.time(), external_force);
-    };
-    set_loads();
+    apply_forces(dynamics.time());
     const bool        loads_change = scene.loads.forces_depend_on_time();
     const GlobalIndex n_bonds      = scene.families->n_bonds();
     StepLine          progress(screen.get_stream(), screen.is_active(), n_steps);
@@ -217,7 +211,7 @@ namespace perideal
         {
           const Timings::Scope scope(timings, "solve");
           if (loads_change && n > 0)
-            set_loads();
+            apply_forces(dynamics.time());
           dynamics.evaluate(external_force);
         }
         if (dynamics.n_broken() > 0 && !summary["damage"].contains("first_break_time"))

@@ -75,6 +75,8 @@ namespace perideal
     scene.nodes         = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
     scene.nodes->margin = parameters.quadrature.margin();
     scene.faces         = find_boundary_faces(*scene.mesh, *scene.nodes);
+    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point())
+      scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.displacement_treatment == "mirror")
       {
         scene.mirror = std::make_shared<MirrorLayer<dim>>(
@@ -97,6 +99,7 @@ namespace perideal
                                       scene.condition_boundaries,
                                       scene.nodes->size());
       }
+    check_lines(*scene.mesh, *scene.nodes, parameters.comparison.lines);
     scene.families = std::make_shared<Families<dim>>(scene.mirror->nodes());
     if (scene.families->statistics().min == 0)
       throw InputError("a node has no neighbour within its horizon")
@@ -137,7 +140,8 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const auto           solid_of = solid_of_model();
-    if (parameters.model.is_linear_only() || needs_gradient(parameters.field_names()))
+    if (parameters.model.is_linear_only() || parameters.loads.has_missing_bonds() ||
+        needs_gradient(parameters.field_names()))
       make_gradient();
     if (parameters.model.is_consistent())
       {
@@ -167,6 +171,8 @@ namespace perideal
           scene.bonds =
             std::make_shared<SurfaceCure<dim>>(scene.bonds, scene.gradient, scene.nodes->volume, solid_of);
       }
+    if (parameters.loads.has_missing_bonds())
+      add_missing_bonds();
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
     scene.system =

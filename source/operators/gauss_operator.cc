@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/lanes.h>
 #include <perideal/operators/gauss_operator.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -16,6 +17,45 @@ namespace perideal
     inline double share(const double horizon, const double length, const double width)
     {
       return std::min(1., std::max(0., (horizon - length) / width + 0.5));
+    }
+
+    /// Adds what the bonds to n points with displacements v pull at a node with displacement u.
+    template <int dim>
+    void add_pull(const unsigned int         n,
+                  const std::vector<double> *xi,
+                  const std::vector<double> &weight,
+                  const double              *v,
+                  const double              *u,
+                  double                    *sum)
+    {
+      constexpr unsigned int n_lanes    = 4;
+      const unsigned int     whole      = n - n % n_lanes;
+      Lanes                  total[dim] = {}, distance, x[dim], w;
+      for (unsigned int g = 0; g < whole; g += n_lanes)
+        {
+          Lanes along = {};
+          for (int d = 0; d < dim; ++d)
+            {
+              load(x[d], xi[d].data() + g);
+              load(distance, v + d * n + g);
+              along += x[d] * (distance - u[d]);
+            }
+          load(w, weight.data() + g);
+          along *= w;
+          for (int d = 0; d < dim; ++d)
+            total[d] += along * x[d];
+        }
+      for (int d = 0; d < dim; ++d)
+        sum[d] += sum_of_all(total[d]);
+      for (unsigned int g = whole; g < n; ++g)
+        {
+          double along = 0;
+          for (int d = 0; d < dim; ++d)
+            along += xi[d][g] * (v[d * n + g] - u[d]);
+          along *= weight[g];
+          for (int d = 0; d < dim; ++d)
+            sum[d] += along * xi[d][g];
+        }
     }
 
     /// Calls visit(j) for the node itself and those of its family.
@@ -56,20 +96,37 @@ namespace perideal
   {
     const bool stiffens = !stiffening.factor.empty();
     for (LocalIndex i = 0; i < families->n_local(); ++i)
-      half_modulus.push_back(
-        0.5 * modulus[i] * (stiffens && !stiffening.of_neighbour ? stiffening.factor[i] : 1.));
+      half_modulus.push_back(0.5 * modulus[i] *
+                             (stiffens && !stiffening.of_neighbour ? stiffening.factor[i] : 1.));
     if (stiffens && stiffening.of_neighbour)
       far_factor = stiffening.factor;
     // Rows reach to the nodes of families and of supports.
     const auto       of_families = families->make_partitioner(dim);
     dealii::IndexSet ghosts      = of_families->ghost_indices();
     ghosts.add_indices(points->ghosts());
-    this->partitioner =
-      std::make_shared<const dealii::Utilities::MPI::Partitioner>(of_families->locally_owned_range(),
-                                                                  ghosts,
-                                                                  families->communicator);
+    this->partitioner = std::make_shared<const dealii::Utilities::MPI::Partitioner>(
+      of_families->locally_owned_range(), ghosts, families->communicator);
     points->initialize(at_points);
     this->reports.resize(families->n_owned());
+
+    unsigned int n_empty = 0;
+    Bonds        bonds;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        bool counts = false;
+        visit_cells(*families, i, [&](const LocalIndex j) {
+          weigh(i, j, bonds);
+          counts = counts || std::any_of(bonds.weight.begin(), bonds.weight.end(), [](const double w) {
+                     return w > 0;
+                   });
+        });
+        n_empty += counts ? 0 : 1;
+      }
+    n_empty = dealii::Utilities::MPI::sum(n_empty, families->communicator);
+    if (n_empty > 0)
+      throw InputError("the horizons of " + std::to_string(n_empty) + " nodes hold no part of a neighbour")
+        .parameter("Nodes/Horizon factor")
+        .hint("enlarge the factor");
   }
 
   template <int dim>
@@ -118,16 +175,7 @@ namespace perideal
           u[d] = displacement.local_element(dim * i + d);
         visit_cells(*families, i, [&](const LocalIndex j) {
           weigh(i, j, bonds);
-          const double *v = at_points.begin() + std::size_t(dim) * j * n;
-          for (unsigned int g = 0; g < n; ++g)
-            {
-              double along = 0;
-              for (int d = 0; d < dim; ++d)
-                along += bonds.xi[d][g] * (v[d * n + g] - u[d]);
-              along *= bonds.weight[g];
-              for (int d = 0; d < dim; ++d)
-                sum[d] += along * bonds.xi[d][g];
-            }
+          add_pull<dim>(n, bonds.xi, bonds.weight, at_points.begin() + std::size_t(dim) * j * n, u, sum);
         });
         for (int d = 0; d < dim; ++d)
           force.local_element(dim * i + d) = -families->volume[i] * sum[d];
@@ -138,8 +186,8 @@ namespace perideal
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> GaussOperator<dim>::diagonal_blocks() const
   {
-    // Points are looked at where they are owned, for there their supports are known; a node of another rank gets
-    // its part from there.
+    // Points are looked at where they are owned, for there their supports are known; a node of another rank
+    // gets its part from there.
     constexpr unsigned int entries = dim * dim;
     NodalVector            blocks(families->make_partitioner(entries));
     const unsigned int     n = points->n_points();
@@ -156,8 +204,7 @@ namespace perideal
               const double weight = families->volume[i] * bonds.weight[g] * (phi ? 1. - phi[g] : 1.);
               for (int a = 0; a < dim; ++a)
                 for (int b = 0; b < dim; ++b)
-                  blocks.local_element(entries * i + dim * a + b) +=
-                    weight * bonds.xi[a][g] * bonds.xi[b][g];
+                  blocks.local_element(entries * i + dim * a + b) += weight * bonds.xi[a][g] * bonds.xi[b][g];
             }
         });
       }

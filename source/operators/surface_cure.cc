@@ -17,18 +17,15 @@ namespace perideal
     , gradient(gradient)
     , volume(volume)
   {
-    const CellGraph<dim> &graph = gradient->graph();
-    for (LocalIndex i = 0; i < graph.n_owned(); ++i)
+    const LocalIndex n_owned = this->gradient.rows().n_rows();
+    for (LocalIndex i = 0; i < n_owned; ++i)
       if (defects.count(material(i)) == 0)
         defects[material(i)] = TensorInvolved<dim>::micromodulus_defect(solid_of(material(i)).stiffness());
     this->counts      = bonds->counts;
     this->reports     = bonds->reports;
-    this->partitioner = graph.make_partitioner(dim);
-    for (LocalIndex i = 0; i < graph.n_local(); ++i)
-      place.push_back(this->partitioner->global_to_local(dim * graph.global_number(i)) / dim);
-    ghosted.reinit(this->partitioner);
+    this->partitioner = this->gradient.layout();
     forces.reinit(this->partitioner);
-    traces.resize(graph.n_owned());
+    traces.resize(n_owned);
   }
 
   template <int dim>
@@ -36,18 +33,14 @@ namespace perideal
   {
     bonds->vmult(force, displacement);
 
-    const auto      &rows    = gradient->rows();
+    const auto      &rows    = gradient.rows();
     const LocalIndex n_owned = rows.n_rows();
-    std::copy(displacement.begin(), displacement.begin() + dim * n_owned, ghosted.begin());
-    ghosted.update_ghost_values();
+    gradient.read(displacement);
     forces = 0.;
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
-        dealii::Tensor<2, dim> g;
-        for (BondIndex m = rows.first[i]; m < rows.first[i + 1]; ++m)
-          for (int k = 0; k < dim; ++k)
-            g[k] += ghosted.local_element(dim * place[rows.column[m]] + k) * rows.value[m];
-        traces[i] = trace(g);
+        const dealii::Tensor<2, dim> g = gradient.at(i);
+        traces[i]                      = trace(g);
 
         const dealii::Tensor<2, dim> stress =
           volume[i] * dealii::double_contract<2, 0, 3, 1>(defects.at(material(i)), g);
@@ -55,10 +48,9 @@ namespace perideal
           {
             const dealii::Tensor<1, dim> pull = stress * rows.value[m];
             for (int a = 0; a < dim; ++a)
-              forces.local_element(dim * place[rows.column[m]] + a) += pull[a];
+              forces.local_element(dim * gradient.place_of(m) + a) += pull[a];
           }
       }
-    ghosted.zero_out_ghost_values();
     forces.compress(dealii::VectorOperation::add);
     for (std::size_t k = 0; k < dim * n_owned; ++k)
       force.local_element(k) += forces.local_element(k);
@@ -67,8 +59,9 @@ namespace perideal
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> SurfaceCure<dim>::diagonal_blocks() const
   {
-    const auto                         &rows = gradient->rows();
-    std::vector<dealii::Tensor<2, dim>> blocks(gradient->graph().n_local());
+    const auto                         &rows  = gradient.rows();
+    const CellGraph<dim>               &graph = gradient.of_faces().graph();
+    std::vector<dealii::Tensor<2, dim>> blocks(graph.n_local());
     for (LocalIndex i = 0; i < rows.n_rows(); ++i)
       {
         const auto n = defect(i);
@@ -78,7 +71,7 @@ namespace perideal
               for (int p = 0; p < dim; ++p)
                 blocks[rows.column[m]][a][k] += rows.value[m][p] * (n[a][p][k] * rows.value[m]);
       }
-    auto       result   = gradient->graph().sum_to_owners(blocks);
+    auto       result   = graph.sum_to_owners(blocks);
     const auto of_bonds = bonds->diagonal_blocks();
     for (LocalIndex i = 0; i < rows.n_rows(); ++i)
       result[i] += of_bonds[i];
@@ -89,7 +82,7 @@ namespace perideal
   void SurfaceCure<dim>::assemble(const typename BondOperator<dim>::AddBlock &add) const
   {
     bonds->assemble(add);
-    const auto              &rows = gradient->rows();
+    const auto              &rows = gradient.rows();
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
     for (LocalIndex i = 0; i < rows.n_rows(); ++i)
@@ -102,8 +95,7 @@ namespace perideal
         for (std::size_t r = 0; r < nodes; ++r)
           for (int a = 0; a < dim; ++a)
             {
-              unknowns[dim * r + a] =
-                dim * gradient->graph().global_number(rows.column[rows.first[i] + r]) + a;
+              unknowns[dim * r + a] = dim * gradient.global_number(rows.first[i] + r) + a;
               for (std::size_t s = 0; s < nodes; ++s)
                 for (int k = 0; k < dim; ++k)
                   for (int p = 0; p < dim; ++p)
@@ -116,11 +108,9 @@ namespace perideal
   template <int dim>
   std::size_t SurfaceCure<dim>::memory_consumption() const
   {
-    return bonds->memory_consumption() + gradient->memory_consumption() +
+    return bonds->memory_consumption() + gradient.memory_consumption() +
            dealii::MemoryConsumption::memory_consumption(volume) +
-           dealii::MemoryConsumption::memory_consumption(traces) +
-           dealii::MemoryConsumption::memory_consumption(place) + ghosted.memory_consumption() +
-           forces.memory_consumption();
+           dealii::MemoryConsumption::memory_consumption(traces) + forces.memory_consumption();
   }
 
   template class SurfaceCure<2>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/output/boundary_curve.h>
+#include <perideal/output/gather.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -16,19 +17,6 @@
 
 namespace perideal
 {
-  namespace
-  {
-    /// Rank 0 gets the values of all ranks, one rank after the other.
-    template <typename T>
-    std::vector<T> gather(const std::vector<T> &mine, MPI_Comm communicator)
-    {
-      std::vector<T> all;
-      for (const auto &part : dealii::Utilities::MPI::gather(communicator, mine, 0))
-        all.insert(all.end(), part.begin(), part.end());
-      return all;
-    }
-  } // namespace
-
   template <int dim>
   BoundaryCurve<dim>::BoundaryCurve(const Mesh<dim> &mesh, const dealii::types::boundary_id boundary)
     : communicator(mesh.triangulation.get_communicator())

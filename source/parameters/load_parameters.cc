@@ -119,6 +119,19 @@ namespace perideal
       "automatic: face value for the consistent form, else layer",
       dealii::Patterns::Selection("automatic|face value|layer|reference|mirror"));
     prm.add_parameter(
+      "Traction treatment",
+      traction_treatment,
+      "How tractions and pressures reach the nodes: layer: as forces on the nodes of the cells at the "
+      "boundary; missing "
+      "bonds: with what the bonds would do that families lack behind the surface, also where it is free, so "
+      "that "
+      "uniform stresses are exact (statics, not the consistent form); line to point: the closed form of "
+      "bond-based peridynamics "
+      "in 3-D for tractions along the normal; printed line to point: as published, with a third of the force "
+      "lost; "
+      "automatic: at the faces of the consistent form, else layer",
+      dealii::Patterns::Selection("automatic|layer|missing bonds|line to point|printed line to point"));
+    prm.add_parameter(
       "Layers",
       layers,
       "How many layers of cells under a boundary the treatments layer and reference hold [-]. 1: those "

@@ -33,8 +33,7 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  GaussPoints<dim>::place_points(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const unsigned int n)
+  void GaussPoints<dim>::place_points(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const unsigned int n)
   {
     const dealii::MappingQ1<dim>  mapping;
     const dealii::FE_Nothing<dim> no_element;

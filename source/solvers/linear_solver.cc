@@ -144,6 +144,21 @@ namespace perideal
       double                                                       first = 1;
     };
 
+    /// The system without the forces that push the body along the motions that nothing holds: operators that
+    /// are not symmetric may have such.
+    template <int dim>
+    struct BalancedSystem
+    {
+      void vmult(NodalVector &destination, const NodalVector &source) const
+      {
+        system.vmult(destination, source);
+        null_space.project(destination);
+      }
+
+      const ConstrainedOperator<dim> &system;
+      const NullSpace<dim>           &null_space;
+    };
+
     /// deal.II's CG or GMRES on the matrix-free operator.
     template <int dim, typename Preconditioner>
     class KrylovSolver : public LinearSolver<dim>
@@ -221,7 +236,7 @@ namespace perideal
         dealii::SolverGMRES<NodalVector> gmres(
           control, typename dealii::SolverGMRES<NodalVector>::AdditionalData(102, true));
         gmres.connect(monitor);
-        gmres.solve(system, solution, source, projected);
+        gmres.solve(BalancedSystem<dim>{system, null_space}, solution, source, projected);
       }
 
       const SolverParameters          parameters;

@@ -8,6 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace perideal
 {
   /// Q1 finite elements on the scene's own mesh, timed as "fem: ...".
@@ -34,15 +38,24 @@ namespace perideal
   NodalField<dim>
   evaluate_exact(const SceneState<dim> &scene, const ComparisonParameters &parameters, const double time);
 
+  /// Beginning and end of a line.
+  /// @throws InputError on what are no two points.
+  template <int dim>
+  std::pair<dealii::Point<dim>, dealii::Point<dim>> ends_of(const LineText &line);
+
+  /// @throws InputError on all ranks where a line misses the body. Collective.
+  template <int dim>
+  void check_lines(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::vector<LineText> &lines);
+
   /**
    * Errors of the displacement against every comparison of the scene, and of
    * the finite elements against reference and exact solution, in the form of
    * summary.json; writes profile_NAME.csv into the output directory. Collective.
    */
   template <int dim>
-  nlohmann::ordered_json compare(const SceneState<dim>          &scene,
-                                 const std::vector<std::string> &profiles,
-                                 const std::string              &output_directory);
+  nlohmann::ordered_json compare(const SceneState<dim>      &scene,
+                                 const ComparisonParameters &parameters,
+                                 const std::string          &output_directory);
 } // namespace perideal
 
 #endif

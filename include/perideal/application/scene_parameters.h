@@ -24,6 +24,15 @@
 
 namespace perideal
 {
+  /// Subsection of "Comparison": a straight line through the body.
+  struct LineText
+  {
+    /// Name of the subsection, "Comparison/<name>".
+    std::string name;
+    /// Its ends, coordinates [m] separated by commas.
+    std::string from, to;
+  };
+
   /// Section "Comparison": what the solution is held against.
   struct ComparisonParameters
   {
@@ -37,10 +46,12 @@ namespace perideal
     std::string reference_mesh;
     /// Boundaries along which profiles are written.
     std::vector<std::string> profiles;
+    /// Lines along which profiles are written.
+    std::vector<LineText> lines;
     /// Exact displacement by component, formulas in x, y, z, t; empty: none.
     std::array<std::string, 3> exact;
 
-    void declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
   };
 
   /// Section "Initial conditions".
@@ -100,6 +111,12 @@ namespace perideal
     /// Replaces "automatic" by what it means for this scene.
     /// @throws InputError on choices that do not go together.
     void resolve();
+
+    /// @throws InputError on what does not go with Gauss points.
+    void check_gauss_points() const;
+    /// Chooses the treatment of tractions.
+    /// @throws InputError on those that do not go with the model or the solver.
+    void resolve_tractions();
 
     /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
     void check_dynamics() const;

@@ -18,6 +18,7 @@
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/contact_force.h>
+#include <perideal/operators/missing_bonds.h>
 #include <perideal/operators/null_space.h>
 #include <perideal/operators/relative_damping.h>
 #include <perideal/quadrature/face_gradient.h>
@@ -51,7 +52,9 @@ namespace perideal
 
     std::unique_ptr<Nodes<dim>>    nodes;
     std::vector<BoundaryFace<dim>> faces;
-    HeldNodes<dim>                 held;
+    /// Those of all ranks, where tractions act in depth.
+    std::vector<SurfaceFace<dim>> surface;
+    HeldNodes<dim>                held;
     /// Where the scene needs gradients: the consistent form, strains and stresses do.
     std::shared_ptr<const FaceGradient<dim>> gradient;
     std::shared_ptr<FaceValues<dim>>         face_values;
@@ -67,7 +70,9 @@ namespace perideal
     FamilyCounts              family_counts;
     std::vector<FamilyReport> family_reports;
     /// The same object as bonds, where the form is consistent.
-    std::shared_ptr<ConsistentOperator<dim>>  consistent;
+    std::shared_ptr<ConsistentOperator<dim>> consistent;
+    /// The same object as bonds, where tractions act by the bonds that are missing.
+    std::shared_ptr<MissingBonds<dim>>        missing_bonds;
     std::unique_ptr<ConstrainedOperator<dim>> system;
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;

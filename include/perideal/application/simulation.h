@@ -60,6 +60,7 @@ namespace perideal
     void make_gradient();
     void weigh_bonds();
     void weigh_gauss_points();
+    void add_missing_bonds();
     void set_up_solver();
 
     /// Whether prescribed displacements hold nodes, and not images or faces.
@@ -79,6 +80,8 @@ namespace perideal
 
     // Statics.
     void apply_loads(const double time);
+    /// External forces by tractions, body forces and point loads. Collective.
+    void apply_forces(const double time);
     void check_loads();
     void step(const unsigned int number);
     void solve_equilibrium(const double time);

@@ -25,9 +25,9 @@ namespace perideal
    *
    *     F_i = -V_i sum_j sum_g c beta_g V_g xi (xi . (u_g - u_i))/|xi|^3,    xi = x_g - x_i,
    *
-   * over the cells j that the horizon cuts, the node's own among them. c beta_g is the mean of what the horizons
-   * of i and j make of it. A point acts on nodes and no node on points: momentum is kept up to the quadrature's
-   * error, and K is not symmetric.
+   * over the cells j that the horizon cuts, the node's own among them. c beta_g is the mean of what the
+   * horizons of i and j make of it. A point acts on nodes and no node on points: momentum is kept up to the
+   * quadrature's error, and K is not symmetric.
    */
   template <int dim>
   class GaussOperator : public BondOperator<dim>
@@ -45,12 +45,9 @@ namespace perideal
     void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
 
     /// Springs have no dilatation of their own: 0.
-    std::vector<double> dilatation() const override
-    {
-      return std::vector<double>(families->n_owned(), 0.);
-    }
-    bool        is_symmetric() const override { return false; }
-    std::size_t memory_consumption() const override;
+    std::vector<double> dilatation() const override { return std::vector<double>(families->n_owned(), 0.); }
+    bool                is_symmetric() const override { return false; }
+    std::size_t         memory_consumption() const override;
 
   private:
     /// The bonds from a node to the points of one cell: xi, and c beta V/|xi|^3.

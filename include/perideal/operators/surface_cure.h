@@ -3,7 +3,7 @@
 #define perideal_operators_surface_cure_h
 
 #include <perideal/operators/bond_operator.h>
-#include <perideal/quadrature/face_gradient.h>
+#include <perideal/operators/nodal_gradient.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -46,17 +46,18 @@ namespace perideal
     /// V_i (C - S) of owned node i [N m].
     dealii::Tensor<4, dim> defect(const LocalIndex i) const { return volume[i] * defects.at(material(i)); }
 
-    dealii::types::material_id material(const LocalIndex i) const { return gradient->graph().material[i]; }
+    dealii::types::material_id material(const LocalIndex i) const
+    {
+      return gradient.of_faces().graph().material[i];
+    }
 
     std::shared_ptr<const BondOperator<dim>>                     bonds;
-    std::shared_ptr<const FaceGradient<dim>>                     gradient;
+    NodalGradient<dim>                                           gradient;
     std::vector<double>                                          volume;
     std::map<dealii::types::material_id, dealii::Tensor<4, dim>> defects;
 
-    /// Where the vectors below have the values of each local node of the gradient's graph, over dim.
-    std::vector<LocalIndex> place;
     // Work space of vmult().
-    mutable NodalVector         ghosted, forces;
+    mutable NodalVector         forces;
     mutable std::vector<double> traces;
   };
 } // namespace perideal

@@ -48,6 +48,9 @@ namespace perideal
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
     /// layer | reference | mirror.
     std::string displacement_treatment = "automatic";
+    /// How tractions reach the nodes: automatic | layer | missing bonds | line to point | printed line to
+    /// point.
+    std::string traction_treatment = "automatic";
     /// How many layers of cells under a boundary are held, where nodes are.
     unsigned int layers = 1;
     /// What to do about rigid-body motions that no condition holds: error | remove.
@@ -58,6 +61,12 @@ namespace perideal
     std::array<std::string, 3> body_force;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    bool has_missing_bonds() const { return traction_treatment == "missing bonds"; }
+    bool has_line_to_point() const
+    {
+      return traction_treatment == "line to point" || traction_treatment == "printed line to point";
+    }
   };
 
   /// A boundary condition ready to be evaluated.

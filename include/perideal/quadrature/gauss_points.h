@@ -10,9 +10,9 @@
 namespace perideal
 {
   /**
-   * Fixed Gauss points in the cells of nodes (QUAD 3.3): the same for every bond to a cell, n in each direction.
-   * A point g stands for a subcell of volume V_g = w_g |det J| and width D_g, the edge of the square or cube of
-   * this measure; where a horizon cuts subcells, it counts
+   * Fixed Gauss points in the cells of nodes (QUAD 3.3): the same for every bond to a cell, n in each
+   * direction. A point g stands for a subcell of volume V_g = w_g |det J| and width D_g, the edge of the
+   * square or cube of this measure; where a horizon cuts subcells, it counts
    *
    *     beta_g = min(1, max(0, (d + D_g/2 - |x_g - x|)/D_g))                        (3.14)
    *
@@ -37,7 +37,8 @@ namespace perideal
     /// Points of a cell.
     unsigned int n_points() const { return n_of_cell; }
 
-    /// Of the points of the cell of a local node: one coordinate, volumes, in 2-D area times thickness, and widths [m].
+    /// Of the points of the cell of a local node: one coordinate, volumes, in 2-D area times thickness, and
+    /// widths [m].
     const double *coordinate(const LocalIndex j, const int d) const
     {
       return coordinates.begin() + (dim * j + d) * n_of_cell;
@@ -52,8 +53,8 @@ namespace perideal
     /// A vector for interpolate().
     void initialize(NodalVector &at_points) const { at_points.reinit(coordinates.get_partitioner()); }
 
-    /// Nodes that make the displacements in the cell of an owned node, by global number, and the weights they have
-    /// there: n_points() of each.
+    /// Nodes that make the displacements in the cell of an owned node, by global number, and the weights they
+    /// have there: n_points() of each.
     std::vector<GlobalIndex> support(const LocalIndex j) const;
     const double *weights(const LocalIndex j) const { return weight.data() + first[j] * n_of_cell; }
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
+#include <perideal/boundary/line_to_point.h>
+#include <perideal/boundary/nodal_forces.h>
+#include <perideal/materials/bond_based.h>
+
+// Simulation: loads and prescribed displacements.
+
+namespace perideal
+{
+  template <int dim>
+  void Simulation<dim>::apply_forces(const double time)
+  {
+    const LoadParameters &loads = parameters.loads;
+    if (scene.consistent)
+      compute_nodal_forces(
+        *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
+    else
+      compute_nodal_forces(*scene.nodes,
+                           loads.has_missing_bonds() || loads.has_line_to_point() ?
+                             std::vector<BoundaryFace<dim>>() :
+                             scene.faces,
+                           scene.loads,
+                           scene.condition_boundaries,
+                           time,
+                           external_force);
+    if (loads.has_missing_bonds())
+      scene.missing_bonds->add_tractions(scene.loads, time, external_force);
+    if constexpr (dim == 3)
+      if (loads.has_line_to_point())
+        {
+          const auto solid_of = solid_of_model();
+          add_line_to_point_forces(
+            *scene.nodes,
+            scene.surface,
+            scene.loads,
+            scene.condition_boundaries,
+            time,
+            [&](const LocalIndex i) -> LineToPoint {
+              const auto   solid   = solid_of(scene.nodes->material[i]).isotropic();
+              const double horizon = scene.nodes->horizon[i];
+              return {BondBased<dim>::micromodulus(solid.bulk_modulus(), horizon, scene.mesh->thickness),
+                      horizon,
+                      solid.young_modulus,
+                      solid.poisson_ratio};
+            },
+            loads.traction_treatment == "printed line to point",
+            external_force);
+        }
+    scene.point_forces.add(scene.loads, time, external_force);
+  }
+
+  template <int dim>
+  void Simulation<dim>::apply_loads(const double time)
+  {
+    scene.mirror->set_time(scene.loads, time);
+    if (scene.face_values)
+      scene.face_values->set_time(scene.loads, time);
+    apply_forces(time);
+    if (parameters.loads.displacement_treatment == "reference")
+      {
+        // The reference belongs to the final loads; linear scenes scale.
+        NodalField<dim> values = scene.comparisons.at("reference");
+        for (auto &value : values)
+          value *= time;
+        scene.held.set_nodal_values(values, displacement);
+      }
+    else
+      scene.held.set_boundary_values(scene.loads, time, displacement);
+  }
+
+  template <int dim>
+  void Simulation<dim>::check_loads()
+  {
+    scene.system->initialize(displacement);
+    scene.system->initialize(external_force);
+    check_finite(scene.faces, scene.loads, scene.condition_boundaries, 1., communicator);
+    scene.held.check_finite(scene.loads, 1., communicator);
+    apply_loads(1.);
+    NodalVector residual;
+    scene.system->initialize(residual);
+    scene.system->residual(residual, external_force, displacement);
+    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point())
+      {
+        // What bonds make of tractions balances up to their quadrature; the tractions themselves must.
+        compute_nodal_forces(
+          *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, 1., residual);
+        scene.point_forces.add(scene.loads, 1., residual);
+      }
+    if (scene.null_space.share_in(residual) > 1e-6)
+      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
+        .parameter("Boundary conditions/Rigid body motions")
+        .hint("balance the loads, or hold the body");
+    displacement = 0.;
+  }
+
+  template void Simulation<2>::apply_forces(const double);
+  template void Simulation<2>::apply_loads(const double);
+  template void Simulation<2>::check_loads();
+  template void Simulation<3>::apply_forces(const double);
+  template void Simulation<3>::apply_loads(const double);
+  template void Simulation<3>::check_loads();
+} // namespace perideal
