@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Unit square of 20 x 20 quadrilaterals that grow from the lower left corner, each by a tenth: the largest is
-// six times as long as the smallest.
+// Unit square of 20 x 20 quadrilaterals that grow from the lower left corner, each by 3 % in either direction:
+// the largest has three times the area of the smallest.
 Point(1) = {0, 0, 0};
 Point(2) = {1, 0, 0};
 Point(3) = {1, 1, 0};
@@ -9,7 +9,7 @@ Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(3) = {4, 3};
 Line(4) = {1, 4};
-Transfinite Curve {1, 2, 3, 4} = 21 Using Progression 1.1;
+Transfinite Curve {1, 2, 3, 4} = 21 Using Progression 1.03;
 Curve Loop(1) = {1, 2, -3, -4};
 Plane Surface(1) = {1};
 Transfinite Surface {1};

@@ -25,9 +25,9 @@ namespace perideal
       {
         const double top   = std::sqrt(far * far - square);
         const double ratio = top / far - s / near;
-        result.across      = micromodulus * distance *
-                        (along * (std::asinh(top / distance) - std::asinh(s / distance) - ratio) +
-                         across * ratio);
+        result.across =
+          micromodulus * distance *
+          (along * (std::asinh(top / distance) - std::asinh(s / distance) - ratio) + across * ratio);
       }
     return result;
   }
@@ -76,12 +76,12 @@ namespace perideal
           // Bilinear in the corners, ordered as deal.II's.
           const auto            &v = face.vertices;
           const double           x = at[0], y = at[1];
-          const dealii::Point<3> position((1 - x) * (1 - y) * v[0] + x * (1 - y) * dealii::Tensor<1, 3>(v[1]) +
-                                          (1 - x) * y * dealii::Tensor<1, 3>(v[2]) +
-                                          x * y * dealii::Tensor<1, 3>(v[3]));
-          const auto             along_x = (1 - y) * (v[1] - v[0]) + y * (v[3] - v[2]);
-          const auto             along_y = (1 - x) * (v[2] - v[0]) + x * (v[3] - v[1]);
-          const double area = gauss.weight(result.size()) * cross_product_3d(along_x, along_y).norm();
+          const dealii::Point<3> position(
+            (1 - x) * (1 - y) * v[0] + x * (1 - y) * dealii::Tensor<1, 3>(v[1]) +
+            (1 - x) * y * dealii::Tensor<1, 3>(v[2]) + x * y * dealii::Tensor<1, 3>(v[3]));
+          const auto   along_x = (1 - y) * (v[1] - v[0]) + y * (v[3] - v[2]);
+          const auto   along_y = (1 - x) * (v[2] - v[0]) + x * (v[3] - v[1]);
+          const double area    = gauss.weight(result.size()) * cross_product_3d(along_x, along_y).norm();
           result.push_back({position, area});
           measure += area;
         }
@@ -104,7 +104,8 @@ namespace perideal
             const auto   traction = Loads<3>::traction(loads.conditions[k], face.centre, face.normal, time);
             const double along    = traction * face.normal;
             if ((traction - along * face.normal).norm() > 1e-8 * traction.norm())
-              throw InputError("the closed form of the line-to-point force knows tractions along the normal only")
+              throw InputError(
+                "the closed form of the line-to-point force knows tractions along the normal only")
                 .parameter("Boundary conditions/Traction treatment")
                 .hint("set it to missing bonds, or remove the tangential traction of Boundary conditions/" +
                       loads.conditions[k].name);

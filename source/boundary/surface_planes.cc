@@ -56,8 +56,8 @@ namespace perideal
 
   template <int dim>
   void visit_nearby_faces(
-    const NodeCloud<dim>                                                                 &nodes,
-    const std::vector<SurfaceFace<dim>>                                                  &faces,
+    const NodeCloud<dim>                                                                       &nodes,
+    const std::vector<SurfaceFace<dim>>                                                        &faces,
     const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit)
   {
     std::vector<dealii::Point<dim>> centres;
@@ -72,9 +72,9 @@ namespace perideal
     std::vector<const SurfaceFace<dim> *> near;
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        const auto               &x     = nodes.position[i];
-        const double              reach = nodes.horizon[i] + largest;
-        dealii::Tensor<1, dim>    step;
+        const auto            &x     = nodes.position[i];
+        const double           reach = nodes.horizon[i] + largest;
+        dealii::Tensor<1, dim> step;
         for (int d = 0; d < dim; ++d)
           step[d] = reach;
         const dealii::BoundingBox<dim> box({x - step, x + step});
@@ -120,13 +120,13 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::vector<SurfaceFace<dim>> gather_faces(const std::vector<BoundaryFace<dim>> &, MPI_Comm);     \
-  template void                          visit_nearby_faces(                                                 \
-    const NodeCloud<dim> &,                                                                                  \
-    const std::vector<SurfaceFace<dim>> &,                                                                   \
-    const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &);           \
-  template std::vector<std::vector<SurfacePlane<dim>>> find_surface_planes(                                  \
+#define PERIDEAL_INSTANTIATE(dim)                                                                                           \
+  template std::vector<SurfaceFace<dim>> gather_faces(const std::vector<BoundaryFace<dim>> &, MPI_Comm);                    \
+  template void                          visit_nearby_faces(                                                                \
+                             const NodeCloud<dim> &,                                                                        \
+                             const std::vector<SurfaceFace<dim>> &,                                                         \
+                             const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &); \
+  template std::vector<std::vector<SurfacePlane<dim>>> find_surface_planes(                                                 \
     const NodeCloud<dim> &, const std::vector<SurfaceFace<dim>> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

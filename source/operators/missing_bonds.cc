@@ -165,8 +165,7 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  MissingBonds<dim>::add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const
+  void MissingBonds<dim>::add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const
   {
     for (const Incomplete &family : incomplete)
       for (std::size_t column = 0; column < family.tractions.size(); ++column)

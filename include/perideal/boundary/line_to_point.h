@@ -9,18 +9,19 @@
 namespace perideal
 {
   /**
-   * The line-to-point force density of bond-based peridynamics (QUAD 4.1): what the material on the normal of a
-   * surface point x_s, outside a body under uniaxial stress along the normal n, does to a point below the surface,
+   * The line-to-point force density of bond-based peridynamics (QUAD 4.1): what the material on the normal of
+   * a surface point x_s, outside a body under uniaxial stress along the normal n, does to a point below the
+   * surface,
    *
    *     f_L = int c (1/|xi| - 1/|xi + eta|)(xi + eta) dz,   xi = D e + z n,  s <= z <= sqrt(d^2 - D^2),
    *
-   * with the depth s of the point, the distance D of x_s from the point's foot along e, and the strains eps along n,
-   * -nu eps across. The closed form here is that of the linear force,
+   * with the depth s of the point, the distance D of x_s from the point's foot along e, and the strains eps
+   * along n, -nu eps across. The closed form here is that of the linear force,
    *
    *     f_L.n = c (eps (d - r) + (1 + nu) eps D^2 (1/d - 1/r)),   r = sqrt(D^2 + s^2);
    *
-   * the printed one, (4.25)-(4.45), is of finite stretch, and takes xi_2 = 2 h where it is s + h (4.20), so that the depth is
-   * lost: it recovers a third less.
+   * the printed one, (4.25)-(4.45), is of finite stretch, and takes xi_2 = 2 h where it is s + h (4.20), so
+   * that the depth is lost: it recovers a third less.
    */
   struct LineToPoint
   {
@@ -37,9 +38,9 @@ namespace perideal
   };
 
   /**
-   * Adds to nodes within their horizons of loaded faces what line-to-point force densities make of the tractions
-   * [N]: V_i sum over faces of int f_L dS (4.48), the closed form with 3 x 3 Gauss points a face, the printed one
-   * with one as on a grid of nodes.
+   * Adds to nodes within their horizons of loaded faces what line-to-point force densities make of the
+   * tractions [N]: V_i sum over faces of int f_L dS (4.48), the closed form with 3 x 3 Gauss points a face,
+   * the printed one with one as on a grid of nodes.
    * @param law_of a node
    * @throws InputError on all ranks where a traction is not along the normal (4.47).
    */

@@ -43,8 +43,8 @@ namespace perideal
   /// Calls for every owned node with the faces that its horizon may reach, nearest centre first.
   template <int dim>
   void visit_nearby_faces(
-    const NodeCloud<dim>                                                                 &nodes,
-    const std::vector<SurfaceFace<dim>>                                                  &faces,
+    const NodeCloud<dim>                                                                       &nodes,
+    const std::vector<SurfaceFace<dim>>                                                        &faces,
     const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit);
 
   /**

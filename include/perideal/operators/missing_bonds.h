@@ -22,15 +22,15 @@ namespace perideal
    *     F_i(missing) = M_i eps,    M_i E = (K (E x))_i,
    *
    * on any mesh and for any model whose uniform strains need no forces inside the body. The strain that they
-   * see is that of the solution (face gradient) as far as the known tractions t_k on the planes n_k of the surface
-   * near the node leave it open: of all stresses with sigma n_k = t_k that which is nearest to
-   * the solution's,
+   * see is that of the solution (face gradient) as far as the known tractions t_k on the planes n_k of the
+   * surface near the node leave it open: of all stresses with sigma n_k = t_k that which is nearest to the
+   * solution's,
    *
    *     eps* = eps - C^-1 A^+ (A C eps - t),    A sigma = (sigma n_k)_k,
    *
-   * on free faces with t = 0. The solution of a uniform stress is exact then: every node is in equilibrium under
-   * u = E x, and its tractions are those of C E. The operator is K - M (1 - C^-1 A^+ A C) eps, and M C^-1 A^+ t are
-   * forces on nodes. It is not symmetric.
+   * on free faces with t = 0. The solution of a uniform stress is exact then: every node is in equilibrium
+   * under u = E x, and its tractions are those of C E. The operator is K - M (1 - C^-1 A^+ A C) eps, and M
+   * C^-1 A^+ t are forces on nodes. It is not symmetric.
    */
   template <int dim>
   class MissingBonds : public BondOperator<dim>
@@ -82,11 +82,11 @@ namespace perideal
       std::vector<KnownTraction>                 tractions;
     };
 
-    std::vector<Moment>        find_moments() const;
-    std::vector<KnownTraction> known_tractions(
-      const std::vector<SurfacePlane<dim>>                       &planes,
-      const Loads<dim>                                           &loads,
-      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries) const;
+    std::vector<Moment> find_moments() const;
+    std::vector<KnownTraction>
+    known_tractions(const std::vector<SurfacePlane<dim>>                       &planes,
+                    const Loads<dim>                                           &loads,
+                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries) const;
     /// The force of the missing bonds of a node per displacement of an entry of its gradient.
     dealii::Tensor<2, dim> block(const Incomplete &family, const dealii::Tensor<1, dim> &entry) const;
 

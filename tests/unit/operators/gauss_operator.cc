@@ -108,8 +108,8 @@ namespace
   template <int dim>
   void expect_one_matrix(const Mesh<dim> &mesh)
   {
-    GaussBody<dim>                       gauss(mesh, 2);
-    const ConstrainedOperator<dim>       system(gauss.bonds,
+    GaussBody<dim>                         gauss(mesh, 2);
+    const ConstrainedOperator<dim>         system(gauss.bonds,
                                           std::make_shared<MirrorLayer<dim>>(gauss.body.nodes),
                                           gauss.body.nodes,
                                           std::vector<std::uint8_t>(dim * gauss.body.nodes.size(), 0));
@@ -120,9 +120,8 @@ namespace
     system.initialize(product);
     NodalVector source;
     system.initialize(source);
-    std::copy(gauss.displacement.begin(),
-              gauss.displacement.begin() + source.locally_owned_size(),
-              source.begin());
+    std::copy(
+      gauss.displacement.begin(), gauss.displacement.begin() + source.locally_owned_size(), source.begin());
     matrix.vmult(product, source);
     const double scale = product.linfty_norm();
     for (std::size_t k = 0; k < product.locally_owned_size(); ++k)
@@ -168,10 +167,12 @@ TEST(GaussOperator, RigidMotionsNeedNoForce)
   // Displacements at points are exact for linear fields, so that only round-off is left.
   GaussBody<2> gauss(*test::make_box<2>({7, 6}, {1., 0.9}, 0.3), 2);
   const double scale = gauss.force_of([](const auto &x) { return rough<2>(x); }).linfty_norm();
-  EXPECT_LT(gauss.force_of([](const auto &x) {
-                   return dealii::Tensor<1, 2>({0.3 - 0.7 * x[1], -0.2 + 0.7 * x[0]});
-                 }).linfty_norm(),
-            1e-12 * scale);
+  EXPECT_LT(
+    gauss.force_of([](const auto &x) {
+           return dealii::Tensor<1, 2>({0.3 - 0.7 * x[1], -0.2 + 0.7 * x[0]});
+         })
+      .linfty_norm(),
+    1e-12 * scale);
 }
 
 TEST(GaussOperator, UniformStrainIsInEquilibriumInsideRegularMeshes)
@@ -209,9 +210,8 @@ TEST(GaussOperator, FirstMomentsComeNearThoseOfTheSphere)
       double             error = 0;
       for (LocalIndex i = 0; i < gauss.body.nodes.size(); ++i)
         if (gauss.body.nodes.position[i].distance(dealii::Point<3>(4.5, 4.5, 4.5)) < 0.1)
-          error = std::abs(first_moment(*gauss.body.families, *gauss.points, i) /
-                             (dealii::numbers::PI * 81.) -
-                           1.);
+          error =
+            std::abs(first_moment(*gauss.body.families, *gauss.points, i) / (dealii::numbers::PI * 81.) - 1.);
       error = dealii::Utilities::MPI::max(error, MPI_COMM_WORLD);
       if (n == 1)
         error_1 = error;
