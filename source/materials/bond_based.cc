@@ -33,6 +33,27 @@ namespace perideal
     return 2. * dim * dim * bulk_modulus / first_moment;
   }
 
+  template <int dim>
+  PairForce<dim> BondBased<dim>::pair_force(const ElasticSolid<dim>                    &solid,
+                                            const double                                horizon,
+                                            const typename LinearModel<dim>::Kinematics kinematics) const
+  {
+    const double c = micromodulus(solid.isotropic().bulk_modulus(), horizon, thickness);
+    using Vector   = dealii::Tensor<1, dim>;
+    if (kinematics == LinearModel<dim>::Kinematics::linear)
+      return [c](const Vector &xi, const Vector &eta) {
+        const double length = xi.norm();
+        return c * (xi * eta) / (length * length * length) * xi;
+      };
+    return [c](const Vector &xi, const Vector &eta) {
+      // |xi + eta| - |xi|, without the cancellation.
+      const Vector y      = xi + eta;
+      const double before = xi.norm(), after = y.norm();
+      const double stretch = (2. * xi + eta) * eta / ((before + after) * before);
+      return c * stretch / after * y;
+    };
+  }
+
   template class BondBased<2>;
   template class BondBased<3>;
 } // namespace perideal

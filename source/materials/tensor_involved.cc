@@ -108,6 +108,16 @@ namespace perideal
   }
 
   template <int dim>
+  SymmetricTensor<4, dim> TensorInvolved<dim>::sphere_micromodulus(const SymmetricTensor<4, dim> &stiffness,
+                                                                   const double horizon) const
+  {
+    using dealii::numbers::PI;
+    const double moment =
+      dim == 3 ? PI * std::pow(horizon, 4) / 15. : PI * std::pow(horizon, 3) * thickness / 12.;
+    return micromodulus(stiffness) / moment;
+  }
+
+  template <int dim>
   void TensorInvolved<dim>::compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients)
   {
     constexpr unsigned int  n = SymmetricTensor<2, dim>::n_independent_components;
@@ -115,12 +125,7 @@ namespace perideal
     if (moments == Moments::family)
       coefficients.report.singular = !family_micromodulus(family, d);
     else
-      {
-        using dealii::numbers::PI;
-        const double sphere = dim == 3 ? PI * std::pow(family.horizon, 4) / 15. :
-                                         PI * std::pow(family.horizon, 3) * thickness / 12.;
-        d                   = micromodulus(family.stiffness) / sphere;
-      }
+      d = sphere_micromodulus(family.stiffness, family.horizon);
     for (LocalIndex j = 0; j < family.size; ++j)
       {
         dealii::Tensor<1, dim> bond;
@@ -133,6 +138,20 @@ namespace perideal
         for (unsigned int p = 0; p < n; ++p)
           coefficients.tensor[p][j] = tensor.access_raw_entry(p);
       }
+  }
+
+  template <int dim>
+  PairForce<dim> TensorInvolved<dim>::pair_force(const ElasticSolid<dim> &solid,
+                                                 const double             horizon,
+                                                 const typename LinearModel<dim>::Kinematics) const
+  {
+    if (moments != Moments::sphere)
+      return {};
+    const SymmetricTensor<4, dim> d = sphere_micromodulus(solid.stiffness(), horizon);
+    return [d](const dealii::Tensor<1, dim> &xi, const dealii::Tensor<1, dim> &eta) {
+      const double length = xi.norm();
+      return (d * symmetrize(outer_product(xi, xi))) * eta / (length * length * length);
+    };
   }
 
   template class TensorInvolved<2>;

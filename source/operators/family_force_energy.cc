@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Energies of FamilyForce.
+// What FamilyForce tells of the last compute(): energies, and the forces of single bonds.
 
 namespace perideal
 {
@@ -64,6 +64,26 @@ namespace perideal
     for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1] && bonds.neighbour[slot] != i; ++slot)
       result.push_back({slot, true});
     return result;
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::visit_bond_forces(
+    const typename BondForce<dim>::VisitBond &visit) const
+  {
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const LocalIndex j = bonds.neighbour[slot]; j != i)
+          {
+            dealii::Tensor<1, dim> y;
+            for (int d = 0; d < dim; ++d)
+              y[d] = position[j].value[d] - position[i].value[d];
+            const double length = y.norm(), rest = rest_length[slot];
+            double       magnitude = weights.stiffness[slot] * (length - rest) * rest;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              magnitude += weights.force_weights()[a].near[slot] * state[a][i] +
+                           weights.force_weights()[a].far[slot] * state[a][j];
+            visit(i, j, magnitude * rest / length * y);
+          }
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -172,6 +192,8 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::visit_bond_forces(                              \
+    const typename BondForce<dim>::VisitBond &) const;                                                       \
   template double FamilyForce<dim, n_sums, own_force_weights>::strain_energy() const;                        \
   template double FamilyForce<dim, n_sums, own_force_weights>::released_energy(const NodalVector &,          \
                                                                                const double) const;

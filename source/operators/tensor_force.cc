@@ -115,6 +115,15 @@ namespace perideal
   }
 
   template <int dim>
+  void TensorForce<dim>::visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const
+  {
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const LocalIndex j = bonds.neighbour[slot]; j != i)
+          visit(i, j, tensors.at(slot) * eta(i, j));
+  }
+
+  template <int dim>
   double TensorForce<dim>::strain_energy() const
   {
     double result = 0;

@@ -23,9 +23,12 @@ namespace perideal
     /// @param thickness of a two-dimensional body [m], 1 in 3-D
     explicit BondBased(const double thickness);
 
-    FamilyShape shape() const override { return {0, false}; }
-    bool        is_symmetric() const override { return true; }
-    void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
+    FamilyShape    shape() const override { return {0, false}; }
+    bool           is_symmetric() const override { return true; }
+    void           compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
+    PairForce<dim> pair_force(const ElasticSolid<dim>                    &solid,
+                              const double                                horizon,
+                              const typename LinearModel<dim>::Kinematics kinematics) const override;
 
     /// c of a node with a horizon [N/m^6]; kappa of the problem's dimension [Pa].
     static double micromodulus(const double bulk_modulus, const double horizon, const double thickness);

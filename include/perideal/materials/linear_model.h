@@ -111,6 +111,12 @@ namespace perideal
     void resize(const LocalIndex n, const FamilyShape &shape);
   };
 
+  /// Force density on the near end of a bond xi [m] whose ends displace by eta = u' - u [m], by its own ends
+  /// alone [N/m^6].
+  template <int dim>
+  using PairForce = std::function<dealii::Tensor<1, dim>(const dealii::Tensor<1, dim> &xi,
+                                                         const dealii::Tensor<1, dim> &eta)>;
+
   /**
    * A small-strain peridynamic material. It knows one family at a time and
    * nothing of loops, ranks or files.
@@ -128,6 +134,20 @@ namespace perideal
 
     /// Fills the coefficients of one family; they are resized by the caller.
     virtual void compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) = 0;
+
+    /// Whether bond forces are those of BondOperator or of BondForce.
+    enum class Kinematics
+    {
+      linear,
+      finite
+    };
+
+    /// The force of a bond between nodes of one solid and horizon [m], in the body as it is without nodes;
+    /// empty where bonds know more than their own ends.
+    virtual PairForce<dim> pair_force(const ElasticSolid<dim> &, const double, const Kinematics) const
+    {
+      return {};
+    }
   };
 } // namespace perideal
 

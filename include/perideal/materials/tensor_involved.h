@@ -53,6 +53,11 @@ namespace perideal
     bool        is_symmetric() const override { return true; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 
+    /// Only of the form made for full spheres. Linear always, as TensorForce is.
+    PairForce<dim> pair_force(const ElasticSolid<dim>                    &solid,
+                              const double                                horizon,
+                              const typename LinearModel<dim>::Kinematics kinematics) const override;
+
     /// S of the stiffness C, S[i][k][p][q] [Pa].
     static dealii::SymmetricTensor<4, dim> symmetrised(const dealii::SymmetricTensor<4, dim> &stiffness);
 
@@ -66,6 +71,10 @@ namespace perideal
   private:
     /// The tensor D of a family, made for its moments; tells whether it could be.
     bool family_micromodulus(const FamilyView<dim> &family, dealii::SymmetricTensor<4, dim> &d) const;
+
+    /// The tensor D of a full sphere [N/m^7].
+    dealii::SymmetricTensor<4, dim> sphere_micromodulus(const dealii::SymmetricTensor<4, dim> &stiffness,
+                                                        const double                           horizon) const;
 
     Moments moments;
     double  thickness;

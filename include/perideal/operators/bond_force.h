@@ -5,6 +5,8 @@
 #include <perideal/base/lanes.h>
 #include <perideal/operators/family_weights.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <functional>
 #include <memory>
 #include <vector>
@@ -54,6 +56,13 @@ namespace perideal
     /// Force on the owned nodes [N]. Collective.
     /// @param displacement of owned nodes [m]
     virtual void compute(NodalVector &force, const NodalVector &displacement) = 0;
+
+    /// Receives a bond's nodes (the first owned) and the force it puts on the first [N].
+    using VisitBond = std::function<void(const LocalIndex, const LocalIndex, const dealii::Tensor<1, dim> &)>;
+
+    /// Shows the bond forces of the last compute(); a bond that the partition cuts is shown on both ranks,
+    /// from either end. Lost bonds pull with nothing.
+    virtual void visit_bond_forces(const VisitBond &visit) const = 0;
 
     /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both
     /// ranks.

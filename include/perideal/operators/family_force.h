@@ -27,6 +27,7 @@ namespace perideal
     void                reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
                                                const typename BondForce<dim>::Reweigh        &reweigh) override;
     void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void                visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
     void                restore_broken(const std::vector<BondEnds> &broken) override;
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;

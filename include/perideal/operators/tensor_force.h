@@ -28,6 +28,7 @@ namespace perideal
       AssertThrow(false, dealii::ExcNotImplemented());
     }
     void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void                visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;
     std::vector<double> dilatation() const override { return std::vector<double>(families->n_owned(), 0.); }
