@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/report.h>
 #include <perideal/application/scene_parameters.h>
 #include <perideal/base/registry.h>
 
@@ -17,6 +18,7 @@ namespace perideal
       check_relaxation();
     else
       check_statics();
+    check_areal_forces();
     const auto check_symmetry = [this](const MaterialProperties &properties) {
       if (!properties.symmetry.is_isotropic() && !model.is_tensor_involved())
         throw InputError("this model is one of isotropic materials")
@@ -127,6 +129,23 @@ namespace perideal
         .hint("set it to false");
     if (!boundary_stress.empty())
       throw InputError("boundary stresses are those of statics").parameter("Output/Boundary stress");
+  }
+
+  void SceneParameters::check_areal_forces() const
+  {
+    const bool of_ends =
+      model.model == "bond based" || (model.is_tensor_involved() && model.form == "one point");
+    const bool not_whole = can_break(*this) || !precracks.cracks.empty();
+    for (const ArealForceText &text : areal_forces.points)
+      if (text.rule == "line" && (!of_ends || not_whole))
+        throw InputError(of_ends ? "the line takes all bonds for whole, and some may not be" :
+                                   "the line needs bonds that know only their own ends")
+          .parameter("Areal force densities/" + text.name + "/Rule")
+          .given(text.rule)
+          .allowed(of_ends ?
+                     "automatic | bonds where bonds are cut or break" :
+                     "automatic | bonds for this model; or set Material/Model = bond based, or = tensor "
+                     "involved with Form = one point");
   }
 
   void SceneParameters::check_no_motion() const

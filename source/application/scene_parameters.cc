@@ -107,6 +107,7 @@ namespace perideal
     checkpoints.declare(prm);
     contact.declare(prm);
     comparison.declare(prm, file);
+    areal_forces.declare(prm, file);
     prm.enter_subsection("Output");
     prm.add_parameter(
       "Fields",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/advice.h>
+#include <perideal/application/areal_forces.h>
 #include <perideal/application/boundary_stress.h>
 #include <perideal/application/comparison.h>
 #include <perideal/application/output_fields.h>
@@ -184,6 +185,8 @@ namespace perideal
             history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
             reactions[name].push_back(value);
           }
+    if (scene.areal_forces)
+      summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
     history->end_row();
     const double drift   = external_work != 0 ? (external_work - strain_energy) / external_work : 0.;
     summary["energy"]    = {{"strain", strain_energy}, {"external", external_work}, {"drift", drift}};
@@ -256,6 +259,8 @@ namespace perideal
       screen << describe_motion(summary);
     if (parameters.solver.is_relaxation())
       screen << describe_damage(summary, "");
+    if (status == "done" && scene.areal_forces)
+      screen << describe_areal_forces(summary["areal_force_densities"]);
     if (result.contains("errors") && !result["errors"].empty())
       screen << '\n' << error_table(result["errors"]);
     screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/areal_forces.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -142,6 +143,8 @@ namespace perideal
         record_crack_tips(relaxation.n_broken(), time);
         summary["cracks"] = scene.crack_tracker->describe();
       }
+    if (scene.areal_forces)
+      summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
     history->end_row();
     summary["energy"] = {{"strain", energy.strain},
                          {"dissipated", energy.dissipated},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/areal_forces.h>
 #include <perideal/application/comparison.h>
 #include <perideal/application/output_fields.h>
 #include <perideal/application/simulation.h>
@@ -177,6 +178,7 @@ namespace perideal
     scene.family_reports = scene.bonds->reports;
     scene.system =
       std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
+    scene.areal_forces = create_areal_forces(scene, parameters, solid_of);
   }
 
   template <int dim>

@@ -9,6 +9,7 @@
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/contact_force.h>
+#include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
@@ -100,6 +101,7 @@ namespace perideal
     CheckpointParameters checkpoints;
     ContactParameters    contact;
     ComparisonParameters comparison;
+    ArealForceParameters areal_forces;
 
     /// Declares all parameters, reads the values and checks their ranges.
     /// The blocks are bound to @p prm: this object must stay where it is.
@@ -124,6 +126,9 @@ namespace perideal
     void check_statics() const;
     /// @throws InputError on prescribed or initial velocities.
     void check_no_motion() const;
+
+    /// @throws InputError on lines where bonds know more than their ends, or are not whole.
+    void check_areal_forces() const;
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;

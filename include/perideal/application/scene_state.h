@@ -14,6 +14,7 @@
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/operators/areal_force_density.h>
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
@@ -77,6 +78,9 @@ namespace perideal
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
     std::unique_ptr<LinearSolver<dim>>        linear_solver;
+
+    /// Where the scene asks for some.
+    std::unique_ptr<ArealForceDensity<dim>> areal_forces;
 
     // Dynamics have these, and relaxation those of failure.
     std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
