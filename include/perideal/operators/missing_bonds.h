@@ -54,6 +54,11 @@ namespace perideal
     /// Adds the forces on nodes that tractions make [N].
     void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const;
 
+    /// Of the bonds that are there.
+    void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override
+    {
+      bonds->visit_bond_forces(visit);
+    }
     std::vector<double> dilatation() const override { return bonds->dilatation(); }
     bool                is_symmetric() const override { return false; }
     std::size_t         memory_consumption() const override;
