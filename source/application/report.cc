@@ -125,7 +125,8 @@ namespace perideal
         << " spacings, influence " << parameters.model.influence_function << '\n'
         << "bonds       " << grouped(scene.families->n_bonds()) << ", neighbours a node " << statistics.min
         << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)"
-        << (parameters.quadrature.counts_parts() ? ", partial volumes at the horizon" : "") << '\n'
+        << (parameters.quadrature.counts_parts() ? ", volumes by " + parameters.quadrature.scheme : "")
+        << '\n'
         << "model       " << parameters.model.model
         << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "") << ", "
         << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';

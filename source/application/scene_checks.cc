@@ -59,6 +59,11 @@ namespace perideal
         .parameter("Quadrature/Scheme")
         .given(quadrature.scheme)
         .allowed("one point; or set Material/Form = energy | paper, or another Material/Model");
+    if (treatment == "mirror" && quadrature.needs_cells())
+      throw InputError("mirrored nodes have no cells, of which this scheme counts the parts")
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .allowed("one point | cubic cell | partial volume with Displacement treatment = mirror");
     if (treatment == "mirror" && consistent)
       throw InputError("mirrored nodes have no cells, which the consistent form needs")
         .parameter("Boundary conditions/Displacement treatment")

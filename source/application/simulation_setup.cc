@@ -73,9 +73,9 @@ namespace perideal
   void Simulation<dim>::make_nodes_and_families()
   {
     const Timings::Scope scope(timings, "neighbours");
-    scene.nodes         = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
-    scene.nodes->margin = parameters.quadrature.margin();
-    scene.faces         = find_boundary_faces(*scene.mesh, *scene.nodes);
+    scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
+    prepare_cells(parameters.quadrature, *scene.mesh, *scene.nodes);
+    scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
     if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point())
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.displacement_treatment == "mirror")
@@ -101,7 +101,8 @@ namespace perideal
                                       scene.nodes->size());
       }
     check_lines(*scene.mesh, *scene.nodes, parameters.comparison.lines);
-    scene.families = std::make_shared<Families<dim>>(scene.mirror->nodes());
+    scene.families =
+      std::make_shared<Families<dim>>(scene.mirror->nodes(), create_volume_rule<dim>(parameters.quadrature));
     if (scene.families->statistics().min == 0)
       throw InputError("a node has no neighbour within its horizon")
         .parameter("Nodes/Horizon factor")

@@ -12,17 +12,20 @@ namespace perideal
                                const std::function<bool(const LocalIndex)> &is_gone)
   {
     member.clear();
+    volume.clear();
     for (LocalIndex k = 0; k < families.size(i); ++k)
-      if (const LocalIndex j = families.begin(i)[k];
-          (!is_gone || !is_gone(j)) && volume_share(families, i, j) > 0)
-        member.push_back(k);
+      if (const LocalIndex j = families.begin(i)[k]; !is_gone || !is_gone(j))
+        if (const double counted = counted_volume(families, i, j); counted > 0)
+          {
+            member.push_back(k);
+            volume.push_back(counted);
+          }
     size        = static_cast<LocalIndex>(member.size());
     node_volume = families.volume[i];
     horizon     = families.horizon[i];
     for (auto &component : bond)
       component.resize(size);
     length_square.resize(size);
-    volume.resize(size);
     bond_horizon.resize(size);
     for (LocalIndex k = 0; k < size; ++k)
       {
@@ -31,7 +34,6 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           bond[d][k] = xi[d];
         length_square[k] = xi.norm_square();
-        volume[k]        = counted_volume(families, i, j);
         bond_horizon[k]  = std::max(families.horizon[i], families.horizon[j]);
       }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/halo.h>
+#include <perideal/neighbourhood/volume_rule.h>
 #include <perideal/nodes/node_partitioner.h>
 
 #include <deal.II/base/index_set.h>
@@ -68,15 +69,17 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  Families<dim>::Families(const NodeCloud<dim> &nodes)
+  Families<dim>::Families(const NodeCloud<dim> &nodes, const std::shared_ptr<const VolumeRule<dim>> &rule)
     : position(nodes.position)
     , volume(nodes.volume)
     , horizon(nodes.horizon)
     , material(nodes.material)
     , shape(nodes.shape)
-    , spacing(nodes.margin > 0 ? nodes.spacing : std::vector<double>())
+    , spacing(nodes.spacing)
+    , cell_radius(nodes.cell_radius)
+    , cell(nodes.cell)
+    , volume_rule(rule)
     , communicator(nodes.communicator)
-    , margin(nodes.margin)
     , n_owned_nodes(nodes.size())
     , first_global(nodes.first_global)
     , n_global(nodes.n_global)
@@ -93,7 +96,9 @@ namespace perideal
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       boxes[i] = HorizonBox<dim>::of(position[i], nodes.reach(i));
     const PointTree<dim> tree(boxes);
-    for (const HaloNode<dim> &ghost : exchange_halo(nodes, tree))
+    const Halo<dim>      halo = exchange_halo(nodes, tree);
+    cell.insert(cell.end(), halo.cells.begin(), halo.cells.end());
+    for (const HaloNode<dim> &ghost : halo.nodes)
       {
         ghost_number.push_back(ghost.number);
         ghost_owner.push_back(ghost.owner);
@@ -105,8 +110,9 @@ namespace perideal
         material.push_back(ghost.material);
         if (!shape.empty())
           shape.push_back(ghost.shape);
-        if (margin > 0)
-          spacing.push_back(ghost.spacing);
+        spacing.push_back(ghost.spacing);
+        if (nodes.margin > 0)
+          cell_radius.push_back(ghost.cell_radius);
       }
     const PointTree<dim> ghost_tree(ghost_boxes);
 
@@ -148,14 +154,15 @@ namespace perideal
   template <int dim>
   void Families<dim>::keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const
   {
-    if (shape.empty() && margin == 0)
+    if (shape.empty() && cell_radius.empty())
       return;
     const auto is_outside = [&](const LocalIndex j) {
       const auto bond = position[j] - position[i];
       if (!shape.empty())
         return (shape[i] * bond).norm_square() > 1. && (shape[j] * bond).norm_square() > 1.;
-      const double length = bond.norm(), cells = margin - negligible_share;
-      return length > horizon[i] + cells * spacing[j] && length > horizon[j] + cells * spacing[i];
+      const double length = bond.norm();
+      return (length >= horizon[i] + cell_radius[j] || volume_rule->share(*this, i, j) == 0) &&
+             (length >= horizon[j] + cell_radius[i] || volume_rule->share(*this, j, i) == 0);
     };
     members.erase(std::remove_if(members.begin(), members.end(), is_outside), members.end());
   }
@@ -173,30 +180,27 @@ namespace perideal
     std::vector<LocalIndex> new_number(n_candidates);
     LocalIndex              n_used = 0;
     for (LocalIndex g = 0; g < n_candidates; ++g)
-      if (used[g])
-        {
-          new_number[g]                    = n_owned_nodes + n_used;
-          ghost_number[n_used]             = ghost_number[g];
-          ghost_owner[n_used]              = ghost_owner[g];
-          position[n_owned_nodes + n_used] = position[n_owned_nodes + g];
-          volume[n_owned_nodes + n_used]   = volume[n_owned_nodes + g];
-          horizon[n_owned_nodes + n_used]  = horizon[n_owned_nodes + g];
-          if (!shape.empty())
-            shape[n_owned_nodes + n_used] = shape[n_owned_nodes + g];
-          if (margin > 0)
-            spacing[n_owned_nodes + n_used] = spacing[n_owned_nodes + g];
-          material[n_owned_nodes + n_used++] = material[n_owned_nodes + g];
-        }
-    ghost_number.resize(n_used);
-    ghost_owner.resize(n_used);
-    position.resize(n_owned_nodes + n_used);
-    volume.resize(n_owned_nodes + n_used);
-    horizon.resize(n_owned_nodes + n_used);
-    if (!shape.empty())
-      shape.resize(n_owned_nodes + n_used);
-    if (margin > 0)
-      spacing.resize(n_owned_nodes + n_used);
-    material.resize(n_owned_nodes + n_used);
+      new_number[g] = used[g] ? n_owned_nodes + n_used++ : 0;
+    // Arrays that are not kept are empty.
+    const auto keep_used = [&](auto &values, const LocalIndex first) {
+      if (values.empty())
+        return;
+      LocalIndex next = first;
+      for (LocalIndex g = 0; g < n_candidates; ++g)
+        if (used[g])
+          values[next++] = values[first + g];
+      values.resize(next);
+    };
+    keep_used(ghost_number, 0);
+    keep_used(ghost_owner, 0);
+    keep_used(position, n_owned_nodes);
+    keep_used(volume, n_owned_nodes);
+    keep_used(horizon, n_owned_nodes);
+    keep_used(shape, n_owned_nodes);
+    keep_used(spacing, n_owned_nodes);
+    keep_used(cell_radius, n_owned_nodes);
+    keep_used(cell, n_owned_nodes);
+    keep_used(material, n_owned_nodes);
     for (LocalIndex &j : neighbour)
       if (j >= n_owned_nodes)
         j = new_number[j - n_owned_nodes];
@@ -239,6 +243,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(position) + memory_consumption(volume) + memory_consumption(horizon) +
            memory_consumption(material) + shape.size() * sizeof(shape[0]) + memory_consumption(spacing) +
+           memory_consumption(cell_radius) + cell.size() * sizeof(CellVertices<dim>) +
            memory_consumption(row) + memory_consumption(neighbour);
   }
 

@@ -40,10 +40,26 @@ namespace perideal
         }
       return result;
     }
+
+    template <typename T>
+    void append_bytes(const T &value, std::vector<char> &bytes)
+    {
+      const auto begin = reinterpret_cast<const char *>(&value);
+      bytes.insert(bytes.end(), begin, begin + sizeof(T));
+    }
+
+    /// Appends what the bytes say; returns where they end.
+    template <typename T>
+    const char *read_bytes(const char *bytes, std::vector<T> &values)
+    {
+      values.emplace_back();
+      std::copy(bytes, bytes + sizeof(T), reinterpret_cast<char *>(&values.back()));
+      return bytes + sizeof(T);
+    }
   } // namespace
 
   template <int dim>
-  std::vector<HaloNode<dim>> exchange_halo(const NodeCloud<dim> &nodes, const PointTree<dim> &tree)
+  Halo<dim> exchange_halo(const NodeCloud<dim> &nodes, const PointTree<dim> &tree)
   {
     const MPI_Comm     communicator = nodes.communicator;
     const unsigned int me           = dealii::Utilities::MPI::this_mpi_process(communicator);
@@ -52,7 +68,7 @@ namespace perideal
 
     const auto boxes = gather_boxes(tree.cover(64), communicator);
 
-    // HaloNode is trivially copyable; it travels as bytes.
+    // Nodes are trivially copyable; they travel as bytes.
     using Bytes = std::vector<char>;
     std::map<unsigned int, Bytes> outbox;
     std::vector<LocalIndex>       leaves;
@@ -74,35 +90,38 @@ namespace perideal
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           if (chosen[i])
             {
-              const HaloNode<dim> node  = {nodes.first_global + i,
-                                           me,
-                                           nodes.position[i],
-                                           nodes.volume[i],
-                                           nodes.horizon[i],
-                                           nodes.material[i],
-                                          nodes.margin > 0 ? nodes.spacing[i] : 0.,
-                                          nodes.shape.empty() ? dealii::Tensor<2, dim>() : nodes.shape[i],
-                                           nodes.reach(i)};
-              const auto          begin = reinterpret_cast<const char *>(&node);
-              message.insert(message.end(), begin, begin + sizeof(node));
+              append_bytes(HaloNode<dim>{nodes.first_global + i,
+                                         me,
+                                         nodes.position[i],
+                                         nodes.volume[i],
+                                         nodes.horizon[i],
+                                         nodes.spacing[i],
+                                         nodes.material[i],
+                                         nodes.cell_radius.empty() ? 0. : nodes.cell_radius[i],
+                                         nodes.shape.empty() ? dealii::Tensor<2, dim>() : nodes.shape[i],
+                                         nodes.reach(i)},
+                           message);
+              if (nodes.has_cells)
+                append_bytes(nodes.cell[i], message);
             }
         if (!message.empty())
           outbox[rank] = std::move(message);
       }
 
-    std::vector<HaloNode<dim>> result;
+    Halo<dim> result;
     for (const auto &inbox : dealii::Utilities::MPI::some_to_some(communicator, outbox))
-      {
-        const std::size_t first = result.size();
-        result.resize(first + inbox.second.size() / sizeof(HaloNode<dim>));
-        std::copy(inbox.second.begin(), inbox.second.end(), reinterpret_cast<char *>(result.data() + first));
-      }
+      for (const char *at = inbox.second.data(); at != inbox.second.data() + inbox.second.size();)
+        {
+          at = read_bytes(at, result.nodes);
+          if (nodes.has_cells)
+            at = read_bytes(at, result.cells);
+        }
     // Messages come by ascending rank and so by ascending global number.
     return result;
   }
 
   template struct HaloNode<2>;
   template struct HaloNode<3>;
-  template std::vector<HaloNode<2>> exchange_halo(const NodeCloud<2> &, const PointTree<2> &);
-  template std::vector<HaloNode<3>> exchange_halo(const NodeCloud<3> &, const PointTree<3> &);
+  template Halo<2> exchange_halo(const NodeCloud<2> &, const PointTree<2> &);
+  template Halo<3> exchange_halo(const NodeCloud<3> &, const PointTree<3> &);
 } // namespace perideal

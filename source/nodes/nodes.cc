@@ -93,7 +93,8 @@ namespace perideal
     dealii::Tensor<1, dim> result;
     if (shape.empty())
       for (int d = 0; d < dim; ++d)
-        result[d] = (1. + round_off) * horizon[i] + (margin > 0 ? margin * spacing[i] : 0.);
+        // |xi| < horizon_i + radius_j <= (1 + margin) max(horizon_i, horizon_j).
+        result[d] = (1. + round_off + margin) * horizon[i];
     else
       {
         Assert(margin == 0, dealii::ExcNotImplemented());
@@ -103,6 +104,17 @@ namespace perideal
           result[d] = semi_axes[d].norm();
       }
     return result;
+  }
+
+  template <int dim>
+  void NodeCloud<dim>::set_cell_radius(std::vector<double> radius)
+  {
+    Assert(radius.size() == size() && shape.empty(), dealii::ExcInternalError());
+    cell_radius = std::move(radius);
+    margin      = 0;
+    for (LocalIndex i = 0; i < size(); ++i)
+      margin = std::max(margin, cell_radius[i] / horizon[i]);
+    margin = dealii::Utilities::MPI::max(margin, communicator);
   }
 
   template <int dim>
@@ -193,6 +205,32 @@ namespace perideal
     if (parameters.horizon_shape == "sphere" ||
         (parameters.horizon_shape == "automatic" && mean_aspect_ratio <= 3.))
       this->shape.clear();
+  }
+
+  template <int dim>
+  std::vector<double> Nodes<dim>::cell_radii(const Mesh<dim> &mesh) const
+  {
+    std::vector<double> result(this->size());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const LocalIndex i = node_of_cell[cell->active_cell_index()];
+          for (const unsigned int v : cell->vertex_indices())
+            result[i] = std::max(result[i], this->position[i].distance(cell->vertex(v)));
+        }
+    return result;
+  }
+
+  template <int dim>
+  void Nodes<dim>::keep_cells(const Mesh<dim> &mesh)
+  {
+    this->has_cells = true;
+    this->cell.resize(this->size());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          this->cell[node_of_cell[cell->active_cell_index()]][v] = cell->vertex(v);
+    this->set_cell_radius(cell_radii(mesh));
   }
 
   template struct NodeCloud<2>;

@@ -51,7 +51,8 @@ namespace perideal
     std::vector<BondCursor::End> result;
     // As far as a bond may reach, generously.
     const auto reach = [&](const LocalIndex from, const LocalIndex to) {
-      return (1. + 1e-8) * families->horizon[from] + (families->spacing.empty() ? 0. : families->spacing[to]);
+      return (1. + 1e-8) * families->horizon[from] +
+             (families->cell_radius.empty() ? 0. : families->cell_radius[to]);
     };
     regions.visit_rows_with(i, [&](const LocalIndex j) {
       // Most of the rows hold other nodes: the distance tells so faster than a search.

@@ -5,6 +5,7 @@
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -100,14 +101,6 @@ namespace perideal::test
     return result;
   }
 
-  /// Nodes of which families reach a margin beyond horizons.
-  template <int dim>
-  Nodes<dim> with_margin(Nodes<dim> nodes, const double margin)
-  {
-    nodes.margin = margin;
-    return nodes;
-  }
-
   /// Nodes and families of a mesh.
   template <int dim>
   struct Body
@@ -115,10 +108,13 @@ namespace perideal::test
     explicit Body(const Mesh<dim>   &mesh,
                   const double       horizon_factor = 3.01,
                   const std::string &horizon_shape  = "sphere",
-                  const double       margin         = 0.)
-      : nodes(with_margin(Nodes<dim>(mesh, NodeParameters{horizon_factor, horizon_shape}), margin))
-      , families(std::make_shared<const Families<dim>>(nodes))
+                  const std::string &scheme         = "one point")
+      : nodes(mesh, NodeParameters{horizon_factor, horizon_shape})
     {
+      QuadratureParameters quadrature;
+      quadrature.scheme = scheme;
+      prepare_cells(quadrature, mesh, nodes);
+      families = std::make_shared<const Families<dim>>(nodes, create_volume_rule<dim>(quadrature));
     }
 
     Nodes<dim>                           nodes;

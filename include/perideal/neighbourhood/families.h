@@ -11,12 +11,15 @@
 
 namespace perideal
 {
+  template <int dim>
+  class VolumeRule;
+
   /**
    * The families of the nodes of this rank by the union rule: j belongs to the
    * family of i when it lies within the horizon of i or i within that of j, for
    * spheres |x_j - x_i| <= max(horizon_i, horizon_j), so that every
-   * bond has two ends (XOSB eq. 71). Where the cloud has a margin a, horizons reach cells that they cut:
-   * |x_j - x_i| < horizon_i + a spacing_j, or the same the other way round.
+   * bond has two ends (XOSB eq. 71). Where the cloud knows how far cells reach, families hold the cells that
+   * horizons cut: those of which a volume rule counts a share, at either end.
    *
    * Local numbers: owned nodes first, as in the cloud, then ghosts, the nodes of
    * other ranks that share a bond with an owned one, by ascending global number.
@@ -26,7 +29,9 @@ namespace perideal
   {
   public:
     /// Exchanges the halo and searches. Collective.
-    explicit Families(const NodeCloud<dim> &nodes);
+    /// @param rule how much of its members' volumes a family counts; null: all
+    explicit Families(const NodeCloud<dim>                         &nodes,
+                      const std::shared_ptr<const VolumeRule<dim>> &rule = nullptr);
 
     LocalIndex n_owned() const { return n_owned_nodes; }
     LocalIndex n_local() const { return static_cast<LocalIndex>(position.size()); }
@@ -70,11 +75,12 @@ namespace perideal
     std::vector<dealii::types::material_id> material;
     /// Shapes of the horizons as in the cloud; empty where all are spheres.
     std::vector<dealii::Tensor<2, dim>> shape;
-    /// Spacings of local nodes [m], ghosts included; empty where families have no margin.
-    std::vector<double> spacing;
-
-    /// Share of a cell within the horizon that is round-off [-]: such a cell is outside.
-    static constexpr double negligible_share = 1e-10;
+    /// Spacings of local nodes [m], and how far their cells reach [m] and the cells as in the cloud; ghosts
+    /// included.
+    std::vector<double>            spacing, cell_radius;
+    std::vector<CellVertices<dim>> cell;
+    /// How much of members' volumes counts; null: all. volume_share() asks it.
+    std::shared_ptr<const VolumeRule<dim>> volume_rule;
 
     /// Global numbers of the ghosts, ascending, and the rank that owns each.
     std::vector<GlobalIndex>  ghost_number;
@@ -85,12 +91,11 @@ namespace perideal
   private:
     void search(const NodeCloud<dim> &nodes);
     /// Drops members of which neither horizon holds the other, where the search takes more: horizons that
-    /// are no spheres, and margins, for which it takes a node's own spacing.
+    /// are no spheres, and cells that horizons may cut.
     void keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const;
     void drop_unused_ghosts();
     void count();
 
-    double                  margin;
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
     std::vector<BondIndex>  row;

@@ -16,13 +16,21 @@ namespace perideal
     GlobalIndex                number;
     unsigned int               owner;
     dealii::Point<dim>         position;
-    double                     volume, horizon;
+    double                     volume, horizon, spacing;
     dealii::types::material_id material;
-    /// Zero where families have no margin.
-    double spacing;
+    /// Zero where families hold the nodes within horizons.
+    double cell_radius;
     /// Zero where horizons are spheres.
     dealii::Tensor<2, dim> shape;
     dealii::Tensor<1, dim> reach;
+  };
+
+  template <int dim>
+  struct Halo
+  {
+    std::vector<HaloNode<dim>> nodes;
+    /// Their cells where the cloud has cells, else empty.
+    std::vector<CellVertices<dim>> cells;
   };
 
   /**
@@ -31,7 +39,7 @@ namespace perideal
    * nodes and send what lies within the larger horizon of a box. Collective.
    */
   template <int dim>
-  std::vector<HaloNode<dim>> exchange_halo(const NodeCloud<dim> &nodes, const PointTree<dim> &tree);
+  Halo<dim> exchange_halo(const NodeCloud<dim> &nodes, const PointTree<dim> &tree);
 } // namespace perideal
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ namespace perideal
     void check() const;
   };
 
+  /// Vertices of a quadrilateral or hexahedron in the order of deal.II [m].
+  template <int dim>
+  using CellVertices = std::array<dealii::Point<dim>, (1u << dim)>;
+
   /**
    * Peridynamic nodes of this rank: what the neighbour search and the materials
    * need to know of them. Arrays are indexed by the node's local number.
@@ -34,7 +39,8 @@ namespace perideal
   {
     LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
 
-    /// How far the horizon of node @p i reaches along each axis, with its margin [m].
+    /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
+    /// cells that horizons cut, far enough for these.
     dealii::Tensor<1, dim> reach(const LocalIndex i) const;
 
     /// Sets first_global and n_global from the sizes on all ranks. Collective.
@@ -52,11 +58,20 @@ namespace perideal
     /// The shape of the horizon, a map to the unit sphere: xi is within when
     /// |shape xi| <= 1 [1/m]. Empty where all horizons are spheres.
     std::vector<dealii::Tensor<2, dim>> shape;
+    /// Sets cell_radius and what follows from it. Horizons must be spheres. Collective.
+    void set_cell_radius(std::vector<double> radius);
+
     /// Material (cell group) of the node.
     std::vector<dealii::types::material_id> material;
-    /// How far families reach beyond spherical horizons, in spacings of the neighbour [-]: a half where
-    /// cells that a horizon cuts belong to the family.
+    /// How far cells reach beyond their nodes [m], where the cells that a horizon cuts belong to the family.
+    /// Empty: families hold the nodes within horizons.
+    std::vector<double> cell_radius;
+    /// The largest cell_radius over the horizon of all ranks [-].
     double margin = 0;
+    /// The nodes' cells; empty where has_cells is false.
+    std::vector<CellVertices<dim>> cell;
+    /// Whether neighbours need to know cells. The same on all ranks.
+    bool has_cells = false;
 
     /// Global number of this rank's first node; the rank's nodes are contiguous.
     GlobalIndex first_global = 0;
@@ -79,6 +94,12 @@ namespace perideal
     /// Local node of a locally owned active cell, by active_cell_index();
     /// dealii::numbers::invalid_unsigned_int for other cells.
     std::vector<LocalIndex> node_of_cell;
+
+    /// How far the cells of the owned nodes reach beyond these [m].
+    std::vector<double> cell_radii(const Mesh<dim> &mesh) const;
+
+    /// Keeps the vertices of the nodes' cells, to which families then reach. Collective.
+    void keep_cells(const Mesh<dim> &mesh);
 
     /// Longest over shortest edge of the cells of all ranks.
     double mean_aspect_ratio = 1, max_aspect_ratio = 1;

@@ -2,10 +2,11 @@
 #ifndef perideal_quadrature_bond_volume_h
 #define perideal_quadrature_bond_volume_h
 
-#include <perideal/neighbourhood/families.h>
+#include <perideal/neighbourhood/volume_rule.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <memory>
 #include <string>
 
 namespace perideal
@@ -13,38 +14,57 @@ namespace perideal
   /// Section "Quadrature".
   struct QuadratureParameters
   {
-    /// one point | partial volume | gauss points: how much of a neighbour's volume a bond counts, and where.
+    /// one point | cubic cell | partial volume | adaptive | exact | gauss points: how much of a neighbour's
+    /// volume a bond counts, and where.
     std::string scheme = "one point";
+    /// gauss | trapezoid: points of adaptive integration.
+    std::string adaptive_rule = "gauss";
+    /// When adaptive integration has converged [-].
+    double relative_tolerance = 1e-6, absolute_tolerance = 1e-4;
     /// Gauss points of a cell in each direction, and radius of the supports of moving least squares, in
     /// spacings of the cell [-].
     unsigned int gauss_points   = 2;
     double       support_radius = 3.;
 
     void declare(dealii::ParameterHandler &prm);
-    /// @throws InputError on supports that hold no points.
+    /// @throws InputError on tolerances that are not positive, and supports that hold no points.
     void check() const;
 
+    bool counts_parts() const { return scheme != "one point"; }
     /// Whether cells have several points, whose displacements are interpolated.
     bool has_gauss_points() const { return scheme == "gauss points"; }
-
-    bool counts_parts() const { return scheme == "partial volume"; }
-
-    /// How far families reach beyond horizons, in spacings of the neighbour [-]: NodeCloud::margin.
-    double margin() const { return has_gauss_points() ? 0.87 : counts_parts() ? 0.5 : 0.; }
+    /// Whether shares are those of the cells themselves, and not of squares or cubes in their place.
+    bool needs_cells() const { return scheme == "adaptive" || scheme == "exact"; }
   };
 
+  /// Lets the nodes know of their cells what the scheme asks for, before families are made. Collective.
+  template <int dim>
+  void prepare_cells(const QuadratureParameters &parameters, const Mesh<dim> &mesh, Nodes<dim> &nodes);
+
+  /// The rule of a scheme; null for one point.
+  template <int dim>
+  std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &parameters);
+
   /**
-   * The share beta of the volume of node @p j that its bond counts in the family of @p i [-]. One where
-   * families reach as far as horizons; else the part within the horizon d_i of a cell of width D_j that is
-   * thought to lie across the bond xi,
+   * The share of a square or cube of width D that lies within a distance d, when it is thought to lie across
+   * a bond of length l [-]:
    *
-   *     beta = min(1, max(0, (d_i + D_j/2 - |xi|)/D_j)),
+   *     beta = min(1, max(0, (d + D/2 - l)/D)),
    *
-   * the correction of EMU (Parks, Lehoucq, Plimpton, Silling 2008) without its cut at |xi| = d_i. It differs
-   * between the ends of a bond where spacings do, and may be zero at one of them.
+   * the correction of EMU (Parks, Lehoucq, Plimpton, Silling 2008; K. Yu's thesis, eq. (2.16)).
+   */
+  double linear_share(const double distance, const double width, const double length);
+
+  /**
+   * The share beta of the volume of node @p j that its bond counts in the family of @p i [-], by the
+   * families' rule. It differs between the ends of a bond where cells or horizons do, and may be zero at one
+   * of them.
    */
   template <int dim>
-  double volume_share(const Families<dim> &families, const LocalIndex i, const LocalIndex j);
+  double volume_share(const Families<dim> &families, const LocalIndex i, const LocalIndex j)
+  {
+    return families.volume_rule ? families.volume_rule->share(families, i, j) : 1.;
+  }
 
   /// beta V_j [m^3].
   template <int dim>

@@ -34,8 +34,8 @@ namespace
   template <int dim>
   struct LooseBody
   {
-    LooseBody(const Mesh<dim> &mesh, const Variant &variant, const double margin = 0.)
-      : body(mesh, 3.01, "sphere", margin)
+    LooseBody(const Mesh<dim> &mesh, const Variant &variant, const std::string &scheme = "one point")
+      : body(mesh, 3.01, "sphere", scheme)
     {
       ModelParameters parameters;
       parameters.model = variant.first;
@@ -102,7 +102,7 @@ namespace
           // Partial volumes, where spacings differ.
           if (mesh == boxes.back())
             {
-              LooseBody<dim> parts(*mesh, variant, 0.5);
+              LooseBody<dim> parts(*mesh, variant, "partial volume");
               property(parts, variant);
             }
         }
@@ -260,7 +260,7 @@ TEST(BondForce, CutsBondsApartFromDamage)
 TEST(BondForce, CountsPartialVolumesInDamage)
 {
   const auto   mesh = test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3);
-  LooseBody<2> loose(*mesh, variants[0], 0.5), gone(*mesh, variants[0], 0.5);
+  LooseBody<2> loose(*mesh, variants[0], "partial volume"), gone(*mesh, variants[0], "partial volume");
   const auto  &families = *loose.body.families;
   gone.bonds->cut([](const dealii::Point<2> &, const dealii::Point<2> &) { return true; });
   for (const double share : gone.bonds->cut_share())

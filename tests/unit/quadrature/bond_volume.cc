@@ -12,8 +12,6 @@ using namespace perideal;
 
 namespace
 {
-  constexpr double half = 0.5;
-
   /// A node as its bonds see it.
   template <int dim>
   struct Node
@@ -51,7 +49,7 @@ namespace
   template <int dim>
   void expect_all_pairs(const Mesh<dim> &mesh)
   {
-    const test::Body<dim> body(mesh, 2.2, "sphere", half);
+    const test::Body<dim> body(mesh, 2.2, "sphere", "partial volume");
     const auto           &families = *body.families;
     const auto            all      = gather<dim>(body.nodes);
     double                unlike   = 0;
@@ -132,7 +130,7 @@ namespace
     Errors     worst;
     for (const bool parts : {false, true})
       {
-        const test::Body<dim> body(*mesh, factor, "sphere", parts ? half : 0.);
+        const test::Body<dim> body(*mesh, factor, "sphere", parts ? "partial volume" : "one point");
         LocalIndex            middle = 0;
         for (LocalIndex i = 0; i < body.nodes.size(); ++i)
           if (body.nodes.position[i].distance(0.5 * size) < body.nodes.position[middle].distance(0.5 * size))
@@ -192,7 +190,7 @@ TEST(BondVolume, CellsThatTheHorizonTouchesAreOutside)
   for (const double scale : {1., 0.1, 1. / 3})
     {
       const auto          mesh = test::make_box<2>({11, 11}, {11 * scale, 11 * scale}, 0.);
-      const test::Body<2> body(*mesh, 2.5, "sphere", half);
+      const test::Body<2> body(*mesh, 2.5, "sphere", "partial volume");
       // Within 3 spacings, without those at 3: 5 x 5 nodes less the middle one.
       EXPECT_EQ(body.families->statistics().max, 24u);
     }
