@@ -50,8 +50,8 @@ namespace perideal
       const double     lower  = std::max(roots.begin, interval.begin - far * length);
       const double     upper  = std::min(roots.end, interval.end + far * length);
       const double     middle = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
-      const auto       angle = [&](const double x) { return std::asin(std::clamp((x - middle) / half, -1., 1.)); };
-      const double     begin = angle(interval.begin), range = angle(interval.end) - begin;
+      const auto angle = [&](const double x) { return std::asin(std::clamp((x - middle) / half, -1., 1.)); };
+      const double begin = angle(interval.begin), range = angle(interval.end) - begin;
       for (unsigned int q = 0; q < n; ++q)
         {
           const double at = begin + range * rule.point(q)[0];
@@ -130,10 +130,10 @@ namespace perideal
                           [&](const double y, const double weight) {
                             section.find_chords(y, chords);
                             for (const Interval &chord : chords)
-                              visit_gauss(
-                                chord, no_roots, inner_orders[inner_level], [&](const double z, const double w) {
-                                  visit(y, z, weight * w);
-                                });
+                              visit_gauss(chord,
+                                          no_roots,
+                                          inner_orders[inner_level],
+                                          [&](const double z, const double w) { visit(y, z, weight * w); });
                           });
             }
           return;
@@ -143,8 +143,7 @@ namespace perideal
         visit_trapezoid(range, level, [&](const double y, const double weight) {
           section.find_chords(y, chords);
           for (const Interval &chord : chords)
-            visit_trapezoid(
-              chord, level, [&](const double z, const double w) { visit(y, z, weight * w); });
+            visit_trapezoid(chord, level, [&](const double z, const double w) { visit(y, z, weight * w); });
         });
     }
 
@@ -164,13 +163,12 @@ namespace perideal
                     const unsigned int     inner_level,
                     const Visit           &visit)
     {
-      visit_section(sections.section(),
-                    rule,
-                    level,
-                    inner_level,
-                    [&](const double y, const double z, const double weight) {
-                      visit(dealii::Point<2>(y, z), weight);
-                    });
+      visit_section(
+        sections.section(),
+        rule,
+        level,
+        inner_level,
+        [&](const double y, const double z, const double weight) { visit(dealii::Point<2>(y, z), weight); });
     }
 
     template <typename Visit>
@@ -181,13 +179,10 @@ namespace perideal
                     const Visit           &visit)
     {
       const auto at = [&](const double x, const double weight) {
-        visit_section(sections.section(x),
-                      rule,
-                      level,
-                      inner_level,
-                      [&](const double y, const double z, const double w) {
-                        visit(dealii::Point<3>(x, y, z), weight * w);
-                      });
+        visit_section(
+          sections.section(x), rule, level, inner_level, [&](const double y, const double z, const double w) {
+            visit(dealii::Point<3>(x, y, z), weight * w);
+          });
       };
       const std::vector<double> &kinks = sections.kinks();
       if (rule == IntegrationRule::gauss)

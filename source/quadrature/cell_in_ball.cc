@@ -33,8 +33,8 @@ namespace perideal
       /// Area between the foot and the parts of edges within the disk, and its first moment about the foot.
       double                 area = 0;
       dealii::Tensor<1, dim> moment;
-      /// Angles under which the other parts are seen from the foot, the integral of the unit vector over them,
-      /// and the solid angle of the triangles between the foot and these parts.
+      /// Angles under which the other parts are seen from the foot, the integral of the unit vector over
+      /// them, and the solid angle of the triangles between the foot and these parts.
       double                 angle = 0, solid_angle = 0;
       dealii::Tensor<1, dim> arc;
     };
@@ -113,10 +113,10 @@ namespace perideal
     template <bool with_moment>
     void add_cone(const PlaneFace &face, const double radius, CellMoments<3> &result)
     {
-      const auto &c      = face.corner;
-      const auto  normal = face.n_corners == 4 ? cross_product_3d(c[2] - c[0], c[3] - c[1]) :
-                                                 cross_product_3d(c[1] - c[0], c[2] - c[0]);
-      const double norm = normal.norm();
+      const auto  &c      = face.corner;
+      const auto   normal = face.n_corners == 4 ? cross_product_3d(c[2] - c[0], c[3] - c[1]) :
+                                                  cross_product_3d(c[1] - c[0], c[2] - c[0]);
+      const double norm   = normal.norm();
       if (norm == 0)
         return;
       const auto   n      = normal / norm;
@@ -144,8 +144,8 @@ namespace perideal
           result.moment += h / 4. * (sums.area * h * n + sums.moment);
           return;
         }
-      // Outside, the cone to the disk's sector and the part of the ball up to the edge: the sector of the ball
-      // less that of the cap behind the disk, (d - h)^2 (2 d + h)/6 by angle.
+      // Outside, the cone to the disk's sector and the part of the ball up to the edge: the sector of the
+      // ball less that of the cap behind the disk, (d - h)^2 (2 d + h)/6 by angle.
       const double cap =
         square > 0 ? (radius - height) * (radius - height) * (2. * radius + height) / 6. : 0.;
       result.volume +=
@@ -153,9 +153,9 @@ namespace perideal
         (h < 0 ? -1. : 1.) * (radius * radius * radius / 3. * sums.solid_angle - cap * sums.angle);
       if (with_moment && square > 0)
         {
-          // Of the ball's surface within the cell, the integral of the unit normal is half the closed integral
-          // of r x dr, to which only the arcs on faces add: along edges neighbouring faces cancel. What they
-          // add has the form of the disk's sectors.
+          // Of the ball's surface within the cell, the integral of the unit normal is half the closed
+          // integral of r x dr, to which only the arcs on faces add: along edges neighbouring faces cancel.
+          // What they add has the form of the disk's sectors.
           const double d2 = radius * radius, disk = std::sqrt(square);
           result.moment += h / 4. * (sums.area * h * n + sums.moment) +
                            (h * h - d2) * square * sums.angle / 8. * n +
@@ -214,10 +214,9 @@ namespace perideal
       const PlaceOfCell place = place_of(cell, centre, radius);
       if (place == PlaceOfCell::outside)
         return {};
-      auto result = sum_up<with_moment>(relative_to(cell, centre),
-                                        place == PlaceOfCell::inside ?
-                                          std::numeric_limits<double>::infinity() :
-                                          radius);
+      auto result =
+        sum_up<with_moment>(relative_to(cell, centre),
+                            place == PlaceOfCell::inside ? std::numeric_limits<double>::infinity() : radius);
       result.moment += result.volume * centre;
       return result;
     }
@@ -247,8 +246,7 @@ namespace perideal
   }
 
   template <int dim>
-  PlaceOfCell
-  place_of(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)
+  PlaceOfCell place_of(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)
   {
     double                 farthest = 0, nearest = 0;
     dealii::Tensor<1, dim> lower = cell[0] - centre, upper = lower;
@@ -279,8 +277,7 @@ namespace perideal
   }
 
   template <int dim>
-  double
-  volume_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)
+  double volume_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)
   {
     return sums_in_ball<dim, false>(cell, centre, radius).volume;
   }
@@ -293,9 +290,9 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template PlaceOfCell place_of(const CellVertices<dim> &, const dealii::Point<dim> &, const double);         \
+  template PlaceOfCell place_of(const CellVertices<dim> &, const dealii::Point<dim> &, const double);        \
   template double      cell_volume<dim>(const CellVertices<dim> &);                                          \
-  template double volume_in_ball(const CellVertices<dim> &, const dealii::Point<dim> &, const double);        \
+  template double      volume_in_ball(const CellVertices<dim> &, const dealii::Point<dim> &, const double);  \
   template CellMoments<dim> moments_in_ball(                                                                 \
     const CellVertices<dim> &, const dealii::Point<dim> &, const double);
   PERIDEAL_INSTANTIATE(2)

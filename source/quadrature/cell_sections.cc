@@ -92,8 +92,7 @@ namespace perideal
     crossings.clear();
     for (const Side &side : sides)
       if ((side.a[0] <= y) != (side.b[0] <= y))
-        crossings.push_back(side.a[1] +
-                            (y - side.a[0]) / (side.b[0] - side.a[0]) * (side.b[1] - side.a[1]));
+        crossings.push_back(side.a[1] + (y - side.a[0]) / (side.b[0] - side.a[0]) * (side.b[1] - side.a[1]));
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
       {
@@ -161,9 +160,8 @@ namespace perideal
           if (a.square() <= (1. + round_off) * square)
             all_kinks.push_back(a[0]);
           if (std::isfinite(radius))
-            visit_crossings(a, b, square, [&](const double share) {
-              all_kinks.push_back(a[0] + share * (b[0] - a[0]));
-            });
+            visit_crossings(
+              a, b, square, [&](const double share) { all_kinks.push_back(a[0] + share * (b[0] - a[0])); });
         }
     if (std::isfinite(radius))
       {
@@ -206,7 +204,7 @@ namespace perideal
             const auto &a = face.corners[k], &b = face.corners[(k + 1) % face.corners.size()];
             if ((a[0] <= x) != (b[0] <= x) && n < 2)
               {
-                const double share     = (x - a[0]) / (b[0] - a[0]);
+                const double share           = (x - a[0]) / (b[0] - a[0]);
                 (n++ == 0 ? side.a : side.b) = {a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
               }
           }

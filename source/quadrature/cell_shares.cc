@@ -45,8 +45,8 @@ namespace perideal
                   BoxKey<dim>              &key)
     {
       // Shares are as smooth as spheres: they are off by about this.
-      constexpr double                        unit = 1e-11;
-      const dealii::Point<dim>               &lower = cell.front(), &upper = cell.back();
+      constexpr double          unit  = 1e-11;
+      const dealii::Point<dim> &lower = cell.front(), &upper = cell.back();
       for (unsigned int v = 0; v < cell.size(); ++v)
         for (int d = 0; d < dim; ++d)
           if (std::abs(cell[v][d] - ((v >> d) & 1u ? upper[d] : lower[d])) > unit * radius)
@@ -60,15 +60,15 @@ namespace perideal
       return true;
     }
 
-    /// Looks where a cell lies before it asks how much of it is within the ball, and remembers the answers for
-    /// boxes, of which regular meshes have few kinds.
+    /// Looks where a cell lies before it asks how much of it is within the ball, and remembers the answers
+    /// for boxes, of which regular meshes have few kinds.
     template <int dim>
     class CellShares : public VolumeRule<dim>
     {
     public:
       /// Part of the cell within the ball over the cell [-].
-      using Share = std::function<
-        double(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)>;
+      using Share = std::function<double(
+        const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius)>;
 
       explicit CellShares(const Share &compute)
         : compute(compute)
@@ -105,7 +105,7 @@ namespace perideal
       /// As many fit into the cache of a processor.
       static constexpr std::size_t most_known = 1u << 14;
 
-      const Share                                                   compute;
+      const Share                                                     compute;
       mutable std::unordered_map<BoxKey<dim>, double, HashOfKey<dim>> known;
     };
   } // namespace
@@ -127,8 +127,12 @@ namespace perideal
                                                                const dealii::Point<dim> &centre,
                                                                const double              radius) {
       const double density = 1. / cell_volume<dim>(cell);
-      return integrate_cell_in_ball<dim>(
-               [density](const dealii::Point<dim> &) { return density; }, cell, centre, radius, rule, tolerance)
+      return integrate_cell_in_ball<dim>([density](const dealii::Point<dim> &) { return density; },
+                                         cell,
+                                         centre,
+                                         radius,
+                                         rule,
+                                         tolerance)
         .value;
     });
   }

@@ -76,10 +76,10 @@ namespace perideal
     /// Gauss points of the whole cell, @p n along each direction.
     void make_inside(const unsigned int n);
 
-    CellVertices<dim>    cell;
-    dealii::Point<dim>   centre;
-    IntegrationRule      rule;
-    bool                 is_inside;
+    CellVertices<dim>  cell;
+    dealii::Point<dim> centre;
+    IntegrationRule    rule;
+    bool               is_inside;
     /// Which axis the directions of integration have, the innermost one last.
     std::array<int, dim> axis;
     CellSections<dim>    sections;
@@ -143,7 +143,7 @@ namespace perideal
         for (unsigned int level = 0; level < points.n_inner_levels(); ++level)
           {
             points.make(coarse, level);
-            const Value next = internal::sum_over<dim, Value>(f, points, result);
+            const Value  next   = internal::sum_over<dim, Value>(f, points, result);
             const double change = magnitude(next - last), before = magnitude(last);
             // Chords elsewhere may be longer: the finer points, unless the function is as good as constant.
             if (!(level > 0 && tolerance.is_met(100. * change, before)))
@@ -159,7 +159,8 @@ namespace perideal
         result.value = internal::sum_over<dim, Value>(f, points, result);
         // Few Gauss points may agree by chance: the first two must do so better, later ones are held against
         // those before the last, too.
-        const double strictness = rule == IntegrationRule::gauss && level == 1 && !points.whole_cell() ? 10. : 1.;
+        const double strictness =
+          rule == IntegrationRule::gauss && level == 1 && !points.whole_cell() ? 10. : 1.;
         result.converged =
           level > 0 && tolerance.is_met(strictness * magnitude(result.value - last), magnitude(last)) &&
           (rule == IntegrationRule::trapezoid || level == 1 ||

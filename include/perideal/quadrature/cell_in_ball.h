@@ -43,15 +43,12 @@ namespace perideal
   /// no clipped polyhedron. Right to about 1e-14 of the cell's volume times the cell's distance over its
   /// size. Cells need not be convex.
   template <int dim>
-  double volume_in_ball(const CellVertices<dim>  &cell,
-                        const dealii::Point<dim> &centre,
-                        const double              radius);
+  double volume_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
 
   /// The same with the first moment, and so the centroid of what lies within.
   template <int dim>
-  CellMoments<dim> moments_in_ball(const CellVertices<dim>  &cell,
-                                   const dealii::Point<dim> &centre,
-                                   const double              radius);
+  CellMoments<dim>
+  moments_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
 
   /// Where a cell lies to a ball, as far as its vertices and the box around them tell.
   enum class PlaceOfCell
@@ -61,8 +58,7 @@ namespace perideal
     perhaps_cut
   };
   template <int dim>
-  PlaceOfCell
-  place_of(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
+  PlaceOfCell place_of(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
 } // namespace perideal
 
 #endif

@@ -9,7 +9,8 @@
 
 namespace perideal
 {
-  /// Shares of the families' cells that lie within horizons, in closed form. Nodes must have kept their cells.
+  /// Shares of the families' cells that lie within horizons, in closed form. Nodes must have kept their
+  /// cells.
   template <int dim>
   std::shared_ptr<const VolumeRule<dim>> create_exact_shares();
 

@@ -43,7 +43,7 @@ namespace
           for (int e = 0; e < dim; ++e)
             map[d][e] = (d == e) + 0.3 * number();
           // The first two directions: some faces stay parallel.
-          taper[d] = d < 2 ? 0.3 * number() : 0.;
+          taper[d]  = d < 2 ? 0.3 * number() : 0.;
           centre[d] = 1.5 * number();
         }
       for (unsigned int v = 0; v < cell.size(); ++v)
@@ -83,12 +83,8 @@ namespace
     for (unsigned int k = 0; k < n; ++k)
       {
         cuts.next();
-        const auto   sum   = integrate_cell_in_ball<dim>(one<dim>,
-                                                     cuts.cell,
-                                                     cuts.centre,
-                                                     cuts.radius,
-                                                     rule,
-                                                     {tolerance, no_absolute});
+        const auto sum = integrate_cell_in_ball<dim>(
+          one<dim>, cuts.cell, cuts.centre, cuts.radius, rule, {tolerance, no_absolute});
         const double error = std::abs(sum.value / cuts.part - 1);
         EXPECT_GE(sum.n_evaluations, sum.n_points);
         result.broken += error > tolerance;
@@ -97,8 +93,9 @@ namespace
         result.points += static_cast<double>(sum.n_points) / n;
       }
     std::cout << dim << "-D, " << (rule == IntegrationRule::gauss ? "gauss" : "trapezoid") << ", tolerance "
-              << tolerance << ": " << result.broken << " of " << n << " cells off by more, " << result.unfinished
-              << " not converged, worst error " << result.worst << ", " << result.points << " points\n";
+              << tolerance << ": " << result.broken << " of " << n << " cells off by more, "
+              << result.unfinished << " not converged, worst error " << result.worst << ", " << result.points
+              << " points\n";
     return result;
   }
 
@@ -125,8 +122,8 @@ TEST(AdaptiveIntegration, GaussKeepsItsPromise)
     }
 }
 
-/// Halving stops where the change is small, and that is not where the error is; or where a small part is missed by
-/// the first points, none, as the absolute tolerance allows.
+/// Halving stops where the change is small, and that is not where the error is; or where a small part is
+/// missed by the first points, none, as the absolute tolerance allows.
 TEST(AdaptiveIntegration, TrapezoidBreaksIts)
 {
   const Record solid = record<3>(100, IntegrationRule::trapezoid, 1e-2);
@@ -159,13 +156,13 @@ TEST(AdaptiveIntegration, Functions)
     {
       cuts.next();
       const auto exact = moments_in_ball<3>(cuts.cell, cuts.centre, cuts.radius);
-      const auto sum   = integrate_cell_in_ball<3>(
-        [](const dealii::Point<3> &x) -> dealii::Tensor<1, 3> { return x; },
-        cuts.cell,
-        cuts.centre,
-        cuts.radius,
-        IntegrationRule::gauss,
-        {1e-8, no_absolute});
+      const auto sum =
+        integrate_cell_in_ball<3>([](const dealii::Point<3> &x) -> dealii::Tensor<1, 3> { return x; },
+                                  cuts.cell,
+                                  cuts.centre,
+                                  cuts.radius,
+                                  IntegrationRule::gauss,
+                                  {1e-8, no_absolute});
       EXPECT_TRUE(sum.converged);
       EXPECT_LT((sum.value - exact.moment).norm(), 1e-8 * exact.volume);
     }

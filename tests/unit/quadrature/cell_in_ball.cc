@@ -115,7 +115,7 @@ TEST(CellInBall, InsideAndOutside)
 TEST(CellInBall, BallInsideTheCell)
 {
   const dealii::Point<3> centre(0.1, -0.2, 0.3);
-  const auto             whole = moments_in_ball<3>(box<3>(everywhere<3>(-2.), everywhere<3>(2.)), centre, 1.);
+  const auto whole = moments_in_ball<3>(box<3>(everywhere<3>(-2.), everywhere<3>(2.)), centre, 1.);
   EXPECT_NEAR(whole.volume, 4 * PI / 3, 1e-12);
   EXPECT_LT(whole.centroid().distance(centre), 1e-12);
   const auto disk =
@@ -145,11 +145,11 @@ TEST(CellInBall, CentreOnTheSurface)
   // Next to it by round-off.
   for (const double off : {-1e-9, 1e-12, 1e-15, -1e-15})
     {
-      EXPECT_NEAR(volume_in_ball<3>(box<3>({off, off, 0.}, upper), {}, 1.), PI / 6, 4 * std::abs(off) + 1e-12);
+      EXPECT_NEAR(
+        volume_in_ball<3>(box<3>({off, off, 0.}, upper), {}, 1.), PI / 6, 4 * std::abs(off) + 1e-12);
       // Coplanar with a face beside it.
-      EXPECT_NEAR(volume_in_ball<3>(box<3>({off, 0.3, -2.}, upper), {}, 1.),
-                  cap(0.3) / 2,
-                  4 * std::abs(off) + 1e-12);
+      EXPECT_NEAR(
+        volume_in_ball<3>(box<3>({off, 0.3, -2.}, upper), {}, 1.), cap(0.3) / 2, 4 * std::abs(off) + 1e-12);
     }
 }
 
@@ -175,12 +175,12 @@ TEST(CellInBall, WedgesAndCorners)
   for (const double angle : {0.3, 1.2, 2.0, 2.9})
     {
       // Two planes at this angle through the z axis: its share of the ball.
-      const auto edges = dealii::Tensor<2, 3>(
-        {{30, 0, 0}, {30 * std::cos(angle), 30 * std::sin(angle), 0}, {0, 0, 4}});
+      const auto edges =
+        dealii::Tensor<2, 3>({{30, 0, 0}, {30 * std::cos(angle), 30 * std::sin(angle), 0}, {0, 0, 4}});
       EXPECT_NEAR(volume_in_ball<3>(parallelepiped({0., 0., -2.}, edges), {}, 1.), 2 * angle / 3, 1e-12);
       // Three: the solid angle of the tip (Van Oosterom and Strackee 1983).
       const dealii::Tensor<1, 3> a = edges[0] / 30., b = edges[1] / 30., c({0.3, -0.4, std::sqrt(0.75)});
-      const double solid_angle =
+      const double               solid_angle =
         2 * std::atan2(std::abs(a * cross_product_3d(b, c)), 1 + a * b + b * c + c * a);
       dealii::Tensor<2, 3> tip;
       tip[0] = 30. * a;

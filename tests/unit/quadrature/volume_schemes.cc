@@ -30,9 +30,9 @@ namespace
     dealii::Point<dim> size;
     for (int d = 0; d < dim; ++d)
       size[d] = n;
-    const auto             mesh = test::make_box<dim>(std::vector<unsigned int>(dim, n), size, 0., MPI_COMM_SELF);
-    const test::Body<dim>  body(*mesh, factor, "sphere", name);
-    const Families<dim>   &families = *body.families;
+    const auto mesh = test::make_box<dim>(std::vector<unsigned int>(dim, n), size, 0., MPI_COMM_SELF);
+    const test::Body<dim> body(*mesh, factor, "sphere", name);
+    const Families<dim>  &families = *body.families;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       if (families.position[i].distance(0.5 * size) < 0.1)
         {
@@ -44,8 +44,8 @@ namespace
     return 0;
   }
 
-  /// Largest relative error of the strain energy of a bond-based node inside a grid, over expansion, tension and
-  /// shear.
+  /// Largest relative error of the strain energy of a bond-based node inside a grid, over expansion, tension
+  /// and shear.
   template <int dim>
   double worst_energy_error(const double factor, const std::string &name)
   {
@@ -132,7 +132,8 @@ namespace
         const GlobalIndex        self = families.global_number(i);
         std::vector<GlobalIndex> expected, found;
         for (GlobalIndex j = 0; j < cells.size(); ++j)
-          if (j != self && (share(self, j) > VolumeRule<dim>::negligible || share(j, self) > VolumeRule<dim>::negligible))
+          if (j != self &&
+              (share(self, j) > VolumeRule<dim>::negligible || share(j, self) > VolumeRule<dim>::negligible))
             expected.push_back(j);
         for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
           {
@@ -187,9 +188,8 @@ namespace
 TEST(VolumeSchemes, SpheresOfCubicCells)
 {
   const std::vector<int>    factors = {3, 4, 5, 6, 8, 9, 10, 15, 20, 30};
-  const std::vector<double> printed = {
-    7.992, 10.525, 7.966, 4.891, 5.367, 3.773, 3.862, 2.415, 2.028, 1.251};
-  const std::vector<double> all = {3.320, 1.192, 1.193, .481, .384, .158, .347, .165, .048, .019};
+  const std::vector<double> printed = {7.992, 10.525, 7.966, 4.891, 5.367, 3.773, 3.862, 2.415, 2.028, 1.251};
+  const std::vector<double> all     = {3.320, 1.192, 1.193, .481, .384, .158, .347, .165, .048, .019};
   for (std::size_t k = 0; k < factors.size(); ++k)
     {
       const int  m     = factors[k];
@@ -237,8 +237,8 @@ TEST(VolumeSchemes, WholeHorizonsInDistortedMeshes)
 /// Nodes at the rim count with half their cells.
 TEST(VolumeSchemes, CubicCellsCountNodesWithinTheHorizon)
 {
-  const auto            mesh = test::make_box<2>({11, 11}, {1.1, 1.1}, 0.);
-  const test::Body<2>   body(*mesh, 3., "sphere", "cubic cell");
+  const auto          mesh = test::make_box<2>({11, 11}, {1.1, 1.1}, 0.);
+  const test::Body<2> body(*mesh, 3., "sphere", "cubic cell");
   // 28 nodes within 3 spacings, of which 4 are at the rim with half their volume.
   EXPECT_EQ(body.families->statistics().max, 28u);
   unsigned int n_halves = 0, n = 0;
@@ -253,8 +253,9 @@ TEST(VolumeSchemes, CubicCellsCountNodesWithinTheHorizon)
   EXPECT_GE(n, n_halves);
 }
 
-/// Measured: 5.3, 8.0 and 21.8 % with one point; 13.3, 12.6 and 13.5 % with cubic cells, 3.3, 1.8 and 7.0 % with partial
-/// volumes, 2.2, 1.1 and 2.2 % with exact ones. What is left is that bonds end at nodes, not where the parts lie.
+/// Measured: 5.3, 8.0 and 21.8 % with one point; 13.3, 12.6 and 13.5 % with cubic cells, 3.3, 1.8 and 7.0 %
+/// with partial volumes, 2.2, 1.1 and 2.2 % with exact ones. What is left is that bonds end at nodes, not
+/// where the parts lie.
 TEST(VolumeSchemes, EnergyOfUniformStrain)
 {
   const auto errors = [](const std::string &scheme) {
