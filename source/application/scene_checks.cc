@@ -69,12 +69,22 @@ namespace perideal
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)
         .allowed("automatic | face value | layer | reference for the consistent form");
-    check_gauss_points();
+    check_quadrature();
     resolve_tractions();
   }
 
-  void SceneParameters::check_gauss_points() const
+  void SceneParameters::check_quadrature() const
   {
+    if (model.compensation_of_a_bond != "mean" && !quadrature.has_gauss_points())
+      throw InputError("bonds whose ends oppose each other have one factor")
+        .parameter("Material/Compensation of a bond")
+        .given(model.compensation_of_a_bond)
+        .allowed("mean; or set Quadrature/Scheme = gauss points");
+    if (model.compensates() && loads.displacement_treatment == "mirror")
+      throw InputError("bonds to mirrored nodes are not missing")
+        .parameter("Material/Boundary compensation")
+        .given(model.boundary_compensation)
+        .allowed("none with Displacement treatment = mirror");
     if (!quadrature.has_gauss_points())
       return;
     const auto complain = [this](const std::string &what) {

@@ -1,29 +1,68 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/materials/bond_based.h>
+#include <perideal/materials/boundary_compensation.h>
 #include <perideal/operators/gauss_operator.h>
+#include <perideal/quadrature/regular_body.h>
 
-// Simulation: bonds whose cells have several points.
+#include <cmath>
+
+// Simulation: bonds whose cells have several points, and what makes up for bonds that are missing.
 
 namespace perideal
 {
+  template <int dim>
+  std::vector<double> Simulation<dim>::compensation_factors(const GaussPoints<dim> *points) const
+  {
+    const auto         &nodes = *scene.nodes;
+    std::vector<double> result;
+    if (parameters.model.boundary_compensation == "closed form")
+      for (const auto &planes : find_surface_planes<dim>(nodes, scene.surface))
+        {
+          std::vector<double> depths;
+          for (const SurfacePlane<dim> &plane : planes)
+            depths.push_back(plane.depth);
+          result.push_back(plane_compensation<dim>(nodes.horizon[result.size()], depths));
+        }
+    else if (parameters.model.boundary_compensation == "numerical")
+      {
+        const double whole =
+          scene.mesh->thickness * regular_first_moment<dim>(parameters.nodes, parameters.quadrature);
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          result.push_back(
+            whole * std::pow(nodes.spacing[i], dim + 1) /
+            (points ? first_moment(*scene.families, *points, i) : first_moment(*scene.families, i)));
+      }
+    return result;
+  }
+
   template <int dim>
   void Simulation<dim>::weigh_gauss_points()
   {
     const Timings::Scope part(timings, "setup: weights");
     const auto           solid_of = solid_of_model();
     const auto          &families = *scene.families;
-    const auto           points   = std::make_shared<const GaussPoints<dim>>(*scene.mesh,
-                                                                 *scene.nodes,
-                                                                 families,
-                                                                 parameters.quadrature.gauss_points,
-                                                                 parameters.quadrature.support_radius);
-    std::vector<double>  modulus(families.n_local());
+    const auto           points   = std::make_shared<GaussPoints<dim>>(
+      *scene.mesh, *scene.nodes, families, parameters.quadrature.gauss_points);
+    points->fit(*scene.nodes, parameters.quadrature.support_radius);
+    std::vector<double> modulus(families.n_local());
     for (LocalIndex i = 0; i < families.n_local(); ++i)
       modulus[i] = BondBased<dim>::micromodulus(solid_of(families.material[i]).isotropic().bulk_modulus(),
                                                 families.horizon[i],
                                                 scene.mesh->thickness);
-    scene.bonds = std::make_shared<GaussOperator<dim>>(scene.families, points, modulus, Stiffening());
+
+    Stiffening stiffening;
+    stiffening.of_neighbour = parameters.model.compensation_of_a_bond == "neighbour";
+    if (parameters.model.compensates())
+      {
+        NodalVector factor(families.make_partitioner(1));
+        const auto  own = compensation_factors(points.get());
+        std::copy(own.begin(), own.end(), factor.begin());
+        factor.update_ghost_values();
+        for (LocalIndex i = 0; i < families.n_local(); ++i)
+          stiffening.factor.push_back(factor.local_element(i));
+      }
+    scene.bonds = std::make_shared<GaussOperator<dim>>(scene.families, points, modulus, stiffening);
   }
 
   template <int dim>
@@ -40,8 +79,11 @@ namespace perideal
     scene.bonds = scene.missing_bonds;
   }
 
-  template void Simulation<2>::weigh_gauss_points();
-  template void Simulation<2>::add_missing_bonds();
-  template void Simulation<3>::weigh_gauss_points();
-  template void Simulation<3>::add_missing_bonds();
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template std::vector<double> Simulation<dim>::compensation_factors(const GaussPoints<dim> *) const;        \
+  template void                Simulation<dim>::weigh_gauss_points();                                        \
+  template void                Simulation<dim>::add_missing_bonds();
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
 } // namespace perideal

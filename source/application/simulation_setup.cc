@@ -76,7 +76,8 @@ namespace perideal
     scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
     prepare_cells(parameters.quadrature, *scene.mesh, *scene.nodes);
     scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
-    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point())
+    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point() ||
+        parameters.model.boundary_compensation == "closed form")
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.displacement_treatment == "mirror")
       {
@@ -161,7 +162,7 @@ namespace perideal
     else
       {
         const Timings::Scope part(timings, "setup: weights");
-        scene.model = create_model<dim>(parameters.model, scene.mesh->thickness);
+        scene.model = create_model<dim>(parameters.model, scene.mesh->thickness, compensation_factors());
         scene.weights =
           perideal::weigh_bonds<dim>(scene.families,
                                      *scene.model,

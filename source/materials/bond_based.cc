@@ -8,8 +8,9 @@
 namespace perideal
 {
   template <int dim>
-  BondBased<dim>::BondBased(const double thickness)
+  BondBased<dim>::BondBased(const double thickness, const std::vector<double> &stiffening)
     : thickness(thickness)
+    , stiffening(stiffening)
   {
   }
 
@@ -18,7 +19,8 @@ namespace perideal
   {
     // T = c e/|xi|, a half of it from either family; as stiffness eps xi with eps = |xi| e
     // the bond pulls with stiffness |xi|^2 e.
-    const double modulus = micromodulus(family.bulk_modulus, family.horizon, thickness);
+    const double modulus = micromodulus(family.bulk_modulus, family.horizon, thickness) *
+                           (stiffening.empty() ? 1. : stiffening[family.node]);
     for (LocalIndex j = 0; j < family.size; ++j)
       coefficients.stiffness[j] = 0.5 * modulus * family.node_volume * family.volume[j] /
                                   (family.length_square[j] * std::sqrt(family.length_square[j]));

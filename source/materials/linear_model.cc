@@ -21,6 +21,7 @@ namespace perideal
             volume.push_back(counted);
           }
     size        = static_cast<LocalIndex>(member.size());
+    node        = i;
     node_volume = families.volume[i];
     horizon     = families.horizon[i];
     for (auto &component : bond)

@@ -17,7 +17,9 @@ namespace perideal
   namespace
   {
     template <int dim>
-    using Factory = std::unique_ptr<LinearModel<dim>> (*)(const ModelParameters &, const double);
+    using Factory = std::unique_ptr<LinearModel<dim>> (*)(const ModelParameters &,
+                                                          const double,
+                                                          const std::vector<double> &);
 
     /// The list of models: a new one is one file and one line here.
     template <int dim>
@@ -26,15 +28,18 @@ namespace perideal
       static const Registry<Factory<dim>> list(
         "Material/Model",
         {{"bond based",
-          [](const ModelParameters &, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
-            return std::make_unique<BondBased<dim>>(thickness);
+          [](const ModelParameters &, const double thickness, const std::vector<double> &stiffening)
+            -> std::unique_ptr<LinearModel<dim>> {
+            return std::make_unique<BondBased<dim>>(thickness, stiffening);
           }},
          {"ordinary",
-          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+          [](const ModelParameters &p, const double thickness, const std::vector<double> &)
+            -> std::unique_ptr<LinearModel<dim>> {
             return std::make_unique<Ordinary<dim>>(InfluenceFunction(p.influence_function), thickness);
           }},
          {"extended ordinary",
-          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+          [](const ModelParameters &p, const double thickness, const std::vector<double> &)
+            -> std::unique_ptr<LinearModel<dim>> {
             return std::make_unique<ExtendedOrdinary<dim>>(ExtendedOrdinary<dim>::form_of(p.form),
                                                            InfluenceFunction(p.influence_function),
                                                            thickness,
@@ -43,7 +48,8 @@ namespace perideal
                                                              ExtendedOrdinary<dim>::Negative::by_form);
           }},
          {"tensor involved",
-          [](const ModelParameters &p, const double thickness) -> std::unique_ptr<LinearModel<dim>> {
+          [](const ModelParameters &p, const double thickness, const std::vector<double> &)
+            -> std::unique_ptr<LinearModel<dim>> {
             using Moments = typename TensorInvolved<dim>::Moments;
             return std::make_unique<TensorInvolved<dim>>(
               p.form == "one point" ? Moments::sphere : Moments::family, thickness);
@@ -98,6 +104,19 @@ namespace perideal
       "bonds break (energy form in dynamics; slower, and the energy is kept less well)",
       Selection("intact|after the cut|recomputed"));
     prm.add_parameter(
+      "Boundary compensation",
+      boundary_compensation,
+      "Bond based: how bonds near the surface are stiffened, so that an expansion stores as much energy "
+      "there as "
+      "inside: none; numerical: by what the quadrature makes of the family, over that of a regular "
+      "body; closed form: by the depth below the planes of the surface",
+      Selection("none|numerical|closed form"));
+    prm.add_parameter("Compensation of a bond",
+                      compensation_of_a_bond,
+                      "Which factor a bond has: mean: that of both ends; neighbour: that of the far end, as "
+                      "published, which leaves forces without balance (Scheme = gauss points)",
+                      Selection("mean|neighbour"));
+    prm.add_parameter(
       "Stretch formula",
       stretch_formula,
       "Critical stretch that a fracture energy means: automatic: the model's own; ordinary: that of "
@@ -133,6 +152,16 @@ namespace perideal
         .parameter("Material/Stretch formula")
         .given(stretch_formula)
         .allowed("automatic | ordinary for Model = " + model);
+    if (compensates() && model != "bond based")
+      throw InputError("only springs are stiffened near the surface")
+        .parameter("Material/Boundary compensation")
+        .given(boundary_compensation)
+        .allowed("none for Model = " + model);
+    if (compensation_of_a_bond != "mean" && !compensates())
+      throw InputError("no bond has a factor")
+        .parameter("Material/Compensation of a bond")
+        .given(compensation_of_a_bond)
+        .allowed("mean; or set Material/Boundary compensation = numerical | closed form");
     if (influence_function == "automatic")
       influence_function = is_consistent() ? Consistent<2>::best_influence : "constant";
     if (stabilisation == "automatic")
@@ -179,13 +208,17 @@ namespace perideal
   }
 
   template <int dim>
-  std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters &parameters, const double thickness)
+  std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters     &parameters,
+                                                 const double               thickness,
+                                                 const std::vector<double> &stiffening)
   {
-    return models<dim>().get(parameters.model)(parameters, thickness);
+    return models<dim>().get(parameters.model)(parameters, thickness, stiffening);
   }
 
-  template Consistent<2>                   create_consistent(const ModelParameters &, const double);
-  template Consistent<3>                   create_consistent(const ModelParameters &, const double);
-  template std::unique_ptr<LinearModel<2>> create_model(const ModelParameters &, const double);
-  template std::unique_ptr<LinearModel<3>> create_model(const ModelParameters &, const double);
+  template Consistent<2> create_consistent(const ModelParameters &, const double);
+  template Consistent<3> create_consistent(const ModelParameters &, const double);
+  template std::unique_ptr<LinearModel<2>>
+  create_model(const ModelParameters &, const double, const std::vector<double> &);
+  template std::unique_ptr<LinearModel<3>>
+  create_model(const ModelParameters &, const double, const std::vector<double> &);
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
 #include <perideal/operators/bond_weights.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,6 +18,7 @@ namespace perideal
     FamilyView<dim>              view;
     FamilyCoefficients           coefficients;
     dealii::types::material_id   material = dealii::numbers::invalid_material_id;
+    unsigned int                 n_empty  = 0;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
         view.reinit(
@@ -24,6 +26,7 @@ namespace perideal
           i,
           is_cut ? [&](const LocalIndex j) { return is_cut(families->position[i], families->position[j]); } :
                    std::function<bool(const LocalIndex)>());
+        n_empty += view.size == 0 && !is_cut ? 1 : 0;
         // Neighbours on the curve are mostly of one material.
         if (families->material[i] != material)
           {
@@ -36,6 +39,11 @@ namespace perideal
         cursor.find(i, families->begin(i), families->end(i), ends);
         store(i, coefficients, view.member, ends);
       }
+    n_empty = dealii::Utilities::MPI::sum(n_empty, families->communicator);
+    if (n_empty > 0)
+      throw InputError("the horizons of " + std::to_string(n_empty) + " nodes hold no part of a neighbour")
+        .parameter("Nodes/Horizon factor")
+        .hint("enlarge the factor, or set Quadrature/Scheme = partial volume");
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/lanes.h>
 #include <perideal/operators/gauss_operator.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
@@ -13,12 +14,6 @@ namespace perideal
 {
   namespace
   {
-    /// beta of a point, (3.14) over V_g.
-    inline double share(const double horizon, const double length, const double width)
-    {
-      return std::min(1., std::max(0., (horizon - length) / width + 0.5));
-    }
-
     /// Adds what the bonds to n points with displacements v pull at a node with displacement u.
     template <int dim>
     void add_pull(const unsigned int         n,
@@ -57,33 +52,7 @@ namespace perideal
             sum[d] += along * xi[d][g];
         }
     }
-
-    /// Calls visit(j) for the node itself and those of its family.
-    template <int dim, typename Visit>
-    void visit_cells(const Families<dim> &families, const LocalIndex i, const Visit &visit)
-    {
-      visit(i);
-      for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
-        visit(*j);
-    }
   } // namespace
-
-  template <int dim>
-  double first_moment(const Families<dim> &families, const GaussPoints<dim> &points, const LocalIndex i)
-  {
-    double result = 0;
-    visit_cells(families, i, [&](const LocalIndex j) {
-      for (unsigned int g = 0; g < points.n_points(); ++g)
-        {
-          double square = 0;
-          for (int d = 0; d < dim; ++d)
-            square += std::pow(points.coordinate(j, d)[g] - families.position[i][d], 2);
-          const double length = std::sqrt(square);
-          result += share(families.horizon[i], length, points.width(j)[g]) * points.volume(j)[g] * length;
-        }
-    });
-    return result;
-  }
 
   template <int dim>
   GaussOperator<dim>::GaussOperator(const std::shared_ptr<const Families<dim>>    &families,
@@ -156,8 +125,8 @@ namespace perideal
     for (unsigned int g = 0; g < n; ++g)
       {
         const double square = weight[g], length = std::sqrt(square);
-        const double modulus =
-          near * share(near_horizon, length, width[g]) + far * share(far_horizon, length, width[g]);
+        const double modulus = near * linear_share(near_horizon, width[g], length) +
+                               far * linear_share(far_horizon, width[g], length);
         weight[g] = square > smallest ? modulus * volume[g] / (square * length) : 0.;
       }
   }
@@ -269,6 +238,4 @@ namespace perideal
 
   template class GaussOperator<2>;
   template class GaussOperator<3>;
-  template double first_moment(const Families<2> &, const GaussPoints<2> &, const LocalIndex);
-  template double first_moment(const Families<3> &, const GaussPoints<3> &, const LocalIndex);
 } // namespace perideal

@@ -57,9 +57,11 @@ namespace perideal
       scheme,
       "How much of a neighbour's volume a bond counts: one point: all of it where the neighbour lies within "
       "the horizon; cubic cell: of these neighbours the part of their cells that does, taken as linear in "
-      "the distance; partial volume: that part also of cells with their centre outside; exact: the part of each "
+      "the distance; partial volume: that part also of cells with their centre outside; exact: the part of "
+      "each "
       "cell that the horizon cuts, for cells of any shape; adaptive: the same by integration with error "
-      "control; gauss points: several points in each cell, with displacements interpolated by moving least squares "
+      "control; gauss points: several points in each cell, with displacements interpolated by moving least "
+      "squares "
       "(bond based, statics; all but one point: not with the consistent form)",
       Selection("one point|cubic cell|partial volume|adaptive|exact|gauss points"));
     prm.add_parameter("Adaptive rule",
@@ -78,10 +80,8 @@ namespace perideal
                       "Share of a cell from which on down the relative tolerance is one of the whole cell; "
                       "above 0 [-]",
                       Double());
-    prm.add_parameter("Gauss points",
-                      gauss_points,
-                      "Gauss points of a cell in each direction [-]",
-                      Integer(1, 4));
+    prm.add_parameter(
+      "Gauss points", gauss_points, "Gauss points of a cell in each direction [-]", Integer(1, 4));
     prm.add_parameter(
       "Support radius",
       support_radius,
@@ -140,14 +140,19 @@ namespace perideal
     return nullptr;
   }
 
-  double linear_share(const double distance, const double width, const double length)
+  template <int dim>
+  double first_moment(const Families<dim> &families, const LocalIndex i)
   {
-    return std::min(1., std::max(0., (distance + 0.5 * width - length) / width));
+    double result = 0;
+    for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+      result += counted_volume(families, i, *j) * families.position[i].distance(families.position[*j]);
+    return result;
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template void prepare_cells(const QuadratureParameters &, const Mesh<dim> &, Nodes<dim> &);                \
-  template std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &);
+  template std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &);          \
+  template double                                 first_moment(const Families<dim> &, const LocalIndex);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

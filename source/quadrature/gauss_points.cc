@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/quadrature/bond_volume.h>
 #include <perideal/quadrature/gauss_points.h>
 #include <perideal/quadrature/moving_least_squares.h>
 
@@ -20,8 +21,7 @@ namespace perideal
   GaussPoints<dim>::GaussPoints(const Mesh<dim>     &mesh,
                                 const Nodes<dim>    &nodes,
                                 const Families<dim> &families,
-                                const unsigned int   n,
-                                const double         support_radius)
+                                const unsigned int   n)
     : n_of_cell(dealii::Utilities::pow(n, dim))
     , n_owned(families.n_owned())
   {
@@ -29,7 +29,6 @@ namespace perideal
     volumes.reinit(families.make_partitioner(n_of_cell));
     widths.reinit(families.make_partitioner(n_of_cell));
     place_points(mesh, nodes, n);
-    fit(nodes, support_radius);
   }
 
   template <int dim>
@@ -165,6 +164,26 @@ namespace perideal
            memory_consumption(global_number) + memory_consumption(weight);
   }
 
+  template <int dim>
+  double first_moment(const Families<dim> &families, const GaussPoints<dim> &points, const LocalIndex i)
+  {
+    double result = 0;
+    visit_cells(families, i, [&](const LocalIndex j) {
+      for (unsigned int g = 0; g < points.n_points(); ++g)
+        {
+          dealii::Tensor<1, dim> bond;
+          for (int d = 0; d < dim; ++d)
+            bond[d] = points.coordinate(j, d)[g] - families.position[i][d];
+          const double length = bond.norm();
+          result +=
+            linear_share(families.horizon[i], points.width(j)[g], length) * points.volume(j)[g] * length;
+        }
+    });
+    return result;
+  }
+
   template class GaussPoints<2>;
   template class GaussPoints<3>;
+  template double first_moment(const Families<2> &, const GaussPoints<2> &, const LocalIndex);
+  template double first_moment(const Families<3> &, const GaussPoints<3> &, const LocalIndex);
 } // namespace perideal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The volume of a horizon's sphere in a grid of cubes, by the schemes of section "Quadrature": K. Yu's thesis, section
-// 2.5.1, Tables 2.2 and 2.3. Prints a Markdown table; see README.md beside this file.
+// The volume of a horizon's sphere in a grid of cubes, by the schemes of section "Quadrature": K. Yu's
+// thesis, section 2.5.1, Tables 2.2 and 2.3. Prints a Markdown table; see README.md beside this file.
 
 #include <perideal/quadrature/adaptive_integration.h>
 #include <perideal/quadrature/bond_volume.h>

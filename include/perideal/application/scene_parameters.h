@@ -114,8 +114,8 @@ namespace perideal
     /// @throws InputError on choices that do not go together.
     void resolve();
 
-    /// @throws InputError on what does not go with Gauss points.
-    void check_gauss_points() const;
+    /// @throws InputError on what does not go with Gauss points, or with compensation factors.
+    void check_quadrature() const;
     /// Chooses the treatment of tractions.
     /// @throws InputError on those that do not go with the model or the solver.
     void resolve_tractions();

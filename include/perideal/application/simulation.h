@@ -8,6 +8,7 @@
 #include <perideal/output/checkpoint.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
+#include <perideal/quadrature/gauss_points.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
@@ -60,8 +61,12 @@ namespace perideal
     void make_gradient();
     void weigh_bonds();
     void weigh_gauss_points();
-    void add_missing_bonds();
-    void set_up_solver();
+    /// Factors that stiffen bonds near the surface, by owned node; empty where the scene has none.
+    /// Collective.
+    /// @param points of the cells; null: one point each
+    std::vector<double> compensation_factors(const GaussPoints<dim> *points = nullptr) const;
+    void                add_missing_bonds();
+    void                set_up_solver();
 
     /// Whether prescribed displacements hold nodes, and not images or faces.
     bool by_nodes() const;

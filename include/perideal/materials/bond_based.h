@@ -21,7 +21,9 @@ namespace perideal
   {
   public:
     /// @param thickness of a two-dimensional body [m], 1 in 3-D
-    explicit BondBased(const double thickness);
+    /// @param stiffening factors of c by owned node, which make up for what families lack at the surface [-];
+    ///   empty: none
+    explicit BondBased(const double thickness, const std::vector<double> &stiffening = {});
 
     FamilyShape    shape() const override { return {0, false}; }
     bool           is_symmetric() const override { return true; }
@@ -40,7 +42,8 @@ namespace perideal
     }
 
   private:
-    double thickness;
+    double              thickness;
+    std::vector<double> stiffening;
   };
 } // namespace perideal
 

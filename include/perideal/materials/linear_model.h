@@ -41,6 +41,8 @@ namespace perideal
     /// The larger horizon of the bond's ends [m].
     std::vector<double> bond_horizon;
 
+    /// Which owned node it is the family of.
+    LocalIndex node = 0;
     /// The node's own volume [m^3] and horizon [m].
     double node_volume = 0, horizon = 0;
     /// The node's bulk modulus (of the problem's dimension) and shear modulus [Pa].

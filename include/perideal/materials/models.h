@@ -25,6 +25,11 @@ namespace perideal
     /// precracks cut, and that broke.
     std::string multipliers = "intact";
 
+    /// none | numerical | closed form: how bonds are stiffened near the surface.
+    std::string boundary_compensation = "none";
+    /// mean | neighbour: which end's factor a bond has.
+    std::string compensation_of_a_bond = "mean";
+
     /// ordinary | tensor involved: whose critical stretch a fracture energy means.
     std::string stretch_formula = "automatic";
 
@@ -57,6 +62,8 @@ namespace perideal
     /// Forms that are linear and of statics only.
     bool is_linear_only() const { return is_consistent() || has_surface_cure(); }
 
+    bool compensates() const { return boundary_compensation != "none"; }
+
     bool has_forms() const { return model == "extended ordinary" || is_tensor_involved(); }
 
     bool after_the_cut() const { return multipliers != "intact"; }
@@ -74,8 +81,11 @@ namespace perideal
 
   /// Any other model, of resolved parameters.
   /// @param thickness of a two-dimensional body [m], 1 in 3-D
+  /// @param stiffening factors of the bond-based model's micromodulus by owned node; empty: none
   template <int dim>
-  std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters &parameters, const double thickness);
+  std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters     &parameters,
+                                                 const double               thickness,
+                                                 const std::vector<double> &stiffening = {});
 } // namespace perideal
 
 #endif

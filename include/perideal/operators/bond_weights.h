@@ -63,6 +63,7 @@ namespace perideal
                                            const std::vector<BondCursor::End> &ends)>;
 
     /// Lets the model look at every family of this rank without the bonds that are cut. Fills the reports.
+    /// @throws InputError on all ranks where whole families count nothing of their members. Collective.
     void visit_families(LinearModel<dim>         &model,
                         const SolidOf<dim>       &solid_of,
                         const BondPredicate<dim> &is_cut,

@@ -64,10 +64,6 @@ namespace perideal
     /// Work space of vmult().
     mutable NodalVector at_points;
   };
-
-  /// int |xi| dV over the family of a node of this rank by the same quadrature [m^4].
-  template <int dim>
-  double first_moment(const Families<dim> &families, const GaussPoints<dim> &points, const LocalIndex i);
 } // namespace perideal
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -53,7 +54,10 @@ namespace perideal
    *
    * the correction of EMU (Parks, Lehoucq, Plimpton, Silling 2008; K. Yu's thesis, eq. (2.16)).
    */
-  double linear_share(const double distance, const double width, const double length);
+  inline double linear_share(const double distance, const double width, const double length)
+  {
+    return std::min(1., std::max(0., (distance - length) / width + 0.5));
+  }
 
   /**
    * The share beta of the volume of node @p j that its bond counts in the family of @p i [-], by the
@@ -72,6 +76,10 @@ namespace perideal
   {
     return volume_share(families, i, j) * families.volume[j];
   }
+
+  /// sum beta V |xi| over the family of an owned node: int |xi| dV by the quadrature [m^4].
+  template <int dim>
+  double first_moment(const Families<dim> &families, const LocalIndex i);
 } // namespace perideal
 
 #endif

@@ -25,14 +25,17 @@ namespace perideal
   class GaussPoints
   {
   public:
+    /// The points alone. Collective.
     /// @param n points in each direction
-    /// @param support_radius of moving least squares, in spacings of the cell [-]
-    /// @throws InputError on all ranks where the nodes around a point make no quadratic fit. Collective.
     GaussPoints(const Mesh<dim>     &mesh,
                 const Nodes<dim>    &nodes,
                 const Families<dim> &families,
-                const unsigned int   n,
-                const double         support_radius);
+                const unsigned int   n);
+
+    /// Finds what gives them displacements. Collective.
+    /// @param support_radius of moving least squares, in spacings of the cell [-]
+    /// @throws InputError on all ranks where the nodes around a point make no quadratic fit.
+    void fit(const Nodes<dim> &nodes, const double support_radius);
 
     /// Points of a cell.
     unsigned int n_points() const { return n_of_cell; }
@@ -65,7 +68,6 @@ namespace perideal
 
   private:
     void place_points(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const unsigned int n);
-    void fit(const Nodes<dim> &nodes, const double support_radius);
 
     unsigned int n_of_cell;
     LocalIndex   n_owned;
@@ -78,6 +80,19 @@ namespace perideal
     std::vector<double>      weight;
     mutable NodalVector      ghosted;
   };
+
+  /// Calls visit(j) for a node and the others whose cells its horizon may cut.
+  template <int dim, typename Visit>
+  void visit_cells(const Families<dim> &families, const LocalIndex i, const Visit &visit)
+  {
+    visit(i);
+    for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+      visit(*j);
+  }
+
+  /// sum beta V |xi| over the points of a family: int |xi| dV by the quadrature [m^4].
+  template <int dim>
+  double first_moment(const Families<dim> &families, const GaussPoints<dim> &points, const LocalIndex i);
 } // namespace perideal
 
 #endif

@@ -13,16 +13,14 @@ using namespace perideal;
 
 namespace
 {
-  /// How far cells reach from their centroid, in spacings: enough for distorted ones.
-  constexpr double margin = 1.3;
-
   template <int dim>
   struct GaussBody
   {
     GaussBody(const Mesh<dim> &mesh, const unsigned int n, const double horizon_factor = 2.2)
-      : body(mesh, horizon_factor, "sphere", margin)
-      , points(std::make_shared<const GaussPoints<dim>>(mesh, body.nodes, *body.families, n, 3.))
+      : body(mesh, horizon_factor, "sphere", "gauss points")
+      , points(std::make_shared<GaussPoints<dim>>(mesh, body.nodes, *body.families, n))
     {
+      points->fit(body.nodes, 3.);
       std::vector<double> modulus;
       for (const double horizon : body.families->horizon)
         modulus.push_back(BondBased<dim>::micromodulus(1., horizon, 1.));
@@ -45,10 +43,10 @@ namespace
       return force;
     }
 
-    test::Body<dim>                         body;
-    std::shared_ptr<const GaussPoints<dim>> points;
-    std::shared_ptr<GaussOperator<dim>>     bonds;
-    NodalVector                             displacement, force;
+    test::Body<dim>                     body;
+    std::shared_ptr<GaussPoints<dim>>   points;
+    std::shared_ptr<GaussOperator<dim>> bonds;
+    NodalVector                         displacement, force;
   };
 
   template <int dim>
@@ -151,8 +149,8 @@ TEST(GaussPoints, FillTheirCellsInThreeDimensions)
 TEST(GaussPoints, NeedSupportsOfThreeCellsAcross)
 {
   const auto          mesh = test::make_box<2>({9, 2}, {1., 0.2}, 0.);
-  const test::Body<2> body(*mesh, 2.2, "sphere", margin);
-  test::expect_input_error([&] { GaussPoints<2>(*mesh, body.nodes, *body.families, 2, 3.); },
+  const test::Body<2> body(*mesh, 2.2, "sphere", "gauss points");
+  test::expect_input_error([&] { GaussPoints<2>(*mesh, body.nodes, *body.families, 2).fit(body.nodes, 3.); },
                            {"Quadrature/Support radius", "general position"});
 }
 
