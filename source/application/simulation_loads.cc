@@ -5,6 +5,10 @@
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/bond_based.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
 // Simulation: loads and prescribed displacements.
 
 namespace perideal
@@ -71,6 +75,27 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<typename NullSpace<dim>::Force> Simulation<dim>::forces_on_body() const
+  {
+    std::vector<typename NullSpace<dim>::Force> result;
+    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
+      if (scene.loads.conditions[k].prescribes_traction())
+        for (const BoundaryFace<dim> &face : scene.faces)
+          if (const auto &names = scene.condition_boundaries[k];
+              std::count(names.begin(), names.end(), face.boundary) > 0)
+            result.emplace_back(
+              face.centre,
+              face.area * Loads<dim>::traction(scene.loads.conditions[k], face.centre, face.normal, 1.));
+    for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
+      result.emplace_back(scene.nodes->position[i],
+                          scene.nodes->volume[i] * scene.loads.body_force_at(scene.nodes->position[i], 1.));
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      for (const auto &load : scene.loads.point_loads)
+        result.emplace_back(load.position, load.force_at(1.));
+    return result;
+  }
+
+  template <int dim>
   void Simulation<dim>::check_loads()
   {
     scene.system->initialize(displacement);
@@ -81,24 +106,23 @@ namespace perideal
     NodalVector residual;
     scene.system->initialize(residual);
     scene.system->residual(residual, external_force, displacement);
-    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point())
-      {
-        // What bonds make of tractions balances up to their quadrature; the tractions themselves must.
-        compute_nodal_forces(
-          *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries, 1., residual);
-        scene.point_forces.add(scene.loads, 1., residual);
-      }
-    if (scene.null_space.share_in(residual) > 1e-6)
+    // What bonds make of tractions balances up to their quadrature; the tractions themselves must.
+    const double share = parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point() ?
+                           scene.null_space.share_in(forces_on_body(), communicator) :
+                           scene.null_space.share_in(residual);
+    if (share > 1e-6)
       throw InputError("the loads push the body along a rigid-body motion that nothing holds")
         .parameter("Boundary conditions/Rigid body motions")
         .hint("balance the loads, or hold the body");
     displacement = 0.;
   }
 
-  template void Simulation<2>::apply_forces(const double);
-  template void Simulation<2>::apply_loads(const double);
-  template void Simulation<2>::check_loads();
-  template void Simulation<3>::apply_forces(const double);
-  template void Simulation<3>::apply_loads(const double);
-  template void Simulation<3>::check_loads();
+  template void                             Simulation<2>::apply_forces(const double);
+  template void                             Simulation<2>::apply_loads(const double);
+  template void                             Simulation<2>::check_loads();
+  template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
+  template void                             Simulation<3>::apply_forces(const double);
+  template void                             Simulation<3>::apply_loads(const double);
+  template void                             Simulation<3>::check_loads();
+  template std::vector<NullSpace<3>::Force> Simulation<3>::forces_on_body() const;
 } // namespace perideal

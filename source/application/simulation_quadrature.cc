@@ -24,10 +24,13 @@ namespace perideal
             depths.push_back(plane.depth);
           result.push_back(plane_compensation<dim>(nodes.horizon[result.size()], depths));
         }
-    else if (parameters.model.boundary_compensation == "numerical")
+    else if (parameters.model.compensates())
       {
+        // Of a unit cell in a regular body, or of the sphere itself.
         const double whole =
-          scene.mesh->thickness * regular_first_moment<dim>(parameters.nodes, parameters.quadrature);
+          scene.mesh->thickness * (parameters.model.boundary_compensation == "sphere" ?
+                                     BondBased<dim>::sphere_moment(parameters.nodes.horizon_factor) :
+                                     regular_first_moment<dim>(parameters.nodes, parameters.quadrature));
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           result.push_back(
             whole * std::pow(nodes.spacing[i], dim + 1) /

@@ -27,12 +27,16 @@ namespace perideal
   }
 
   template <int dim>
-  double BondBased<dim>::micromodulus(const double bulk_modulus, const double horizon, const double thickness)
+  double BondBased<dim>::sphere_moment(const double horizon)
   {
     using dealii::numbers::PI;
-    const double first_moment =
-      dim == 3 ? PI * std::pow(horizon, 4) : thickness * 2. * PI / 3. * std::pow(horizon, 3);
-    return 2. * dim * dim * bulk_modulus / first_moment;
+    return dim == 3 ? PI * std::pow(horizon, 4) : 2. * PI / 3. * std::pow(horizon, 3);
+  }
+
+  template <int dim>
+  double BondBased<dim>::micromodulus(const double bulk_modulus, const double horizon, const double thickness)
+  {
+    return 2. * dim * dim * bulk_modulus / (thickness * sphere_moment(horizon));
   }
 
   template <int dim>

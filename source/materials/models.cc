@@ -103,14 +103,16 @@ namespace perideal
       "weights in families where any weight would be negative; recomputed: the same again and again as "
       "bonds break (energy form in dynamics; slower, and the energy is kept less well)",
       Selection("intact|after the cut|recomputed"));
-    prm.add_parameter(
-      "Boundary compensation",
-      boundary_compensation,
-      "Bond based: how bonds near the surface are stiffened, so that an expansion stores as much energy "
-      "there as "
-      "inside: none; numerical: by what the quadrature makes of the family, over that of a regular "
-      "body; closed form: by the depth below the planes of the surface",
-      Selection("none|numerical|closed form"));
+    prm.add_parameter("Boundary compensation",
+                      boundary_compensation,
+                      "Bond based: how bonds near the surface are stiffened, so that an expansion stores as "
+                      "much energy there as "
+                      "inside: none; numerical: by what the quadrature makes of a family in a regular body "
+                      "over what it makes of this one; "
+                      "sphere: by the integral over the sphere over that, which makes up for the "
+                      "quadrature's error inside the body too; "
+                      "closed form: by the depth below the planes of the surface",
+                      Selection("none|numerical|sphere|closed form"));
     prm.add_parameter("Compensation of a bond",
                       compensation_of_a_bond,
                       "Which factor a bond has: mean: that of both ends; neighbour: that of the far end, as "

@@ -1,55 +1,36 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
-#include <perideal/base/lanes.h>
 #include <perideal/operators/gauss_operator.h>
-#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 
 namespace perideal
 {
   namespace
   {
-    /// Adds what the bonds to n points with displacements v pull at a node with displacement u.
-    template <int dim>
-    void add_pull(const unsigned int         n,
-                  const std::vector<double> *xi,
-                  const std::vector<double> &weight,
-                  const double              *v,
-                  const double              *u,
-                  double                    *sum)
+    /// Calls visit(n) with the number of points as a constant of the type std::integral_constant.
+    template <int dim, typename Visit>
+    auto visit_n_points(const unsigned int n_points, const Visit &visit)
     {
-      constexpr unsigned int n_lanes    = 4;
-      const unsigned int     whole      = n - n % n_lanes;
-      Lanes                  total[dim] = {}, distance, x[dim], w;
-      for (unsigned int g = 0; g < whole; g += n_lanes)
+      using dealii::Utilities::pow;
+      switch (n_points)
         {
-          Lanes along = {};
-          for (int d = 0; d < dim; ++d)
-            {
-              load(x[d], xi[d].data() + g);
-              load(distance, v + d * n + g);
-              along += x[d] * (distance - u[d]);
-            }
-          load(w, weight.data() + g);
-          along *= w;
-          for (int d = 0; d < dim; ++d)
-            total[d] += along * x[d];
-        }
-      for (int d = 0; d < dim; ++d)
-        sum[d] += sum_of_all(total[d]);
-      for (unsigned int g = whole; g < n; ++g)
-        {
-          double along = 0;
-          for (int d = 0; d < dim; ++d)
-            along += xi[d][g] * (v[d * n + g] - u[d]);
-          along *= weight[g];
-          for (int d = 0; d < dim; ++d)
-            sum[d] += along * xi[d][g];
+        case 1:
+          return visit(std::integral_constant<unsigned int, 1>());
+        case pow(2u, dim):
+          return visit(std::integral_constant<unsigned int, pow(2u, dim)>());
+        case pow(3u, dim):
+          return visit(std::integral_constant<unsigned int, pow(3u, dim)>());
+        default:
+          AssertThrow(n_points == pow(4u, dim), dealii::ExcNotImplemented());
+          return visit(std::integral_constant<unsigned int, pow(4u, dim)>());
         }
     }
   } // namespace
@@ -78,19 +59,8 @@ namespace perideal
     points->initialize(at_points);
     this->reports.resize(families->n_owned());
 
-    unsigned int n_empty = 0;
-    Bonds        bonds;
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      {
-        bool counts = false;
-        visit_cells(*families, i, [&](const LocalIndex j) {
-          weigh(i, j, bonds);
-          counts = counts || std::any_of(bonds.weight.begin(), bonds.weight.end(), [](const double w) {
-                     return w > 0;
-                   });
-        });
-        n_empty += counts ? 0 : 1;
-      }
+    GlobalIndex n_empty =
+      visit_n_points<dim>(points->n_points(), [&](const auto n) { return count_empty_families<n()>(); });
     n_empty = dealii::Utilities::MPI::sum(n_empty, families->communicator);
     if (n_empty > 0)
       throw InputError("the horizons of " + std::to_string(n_empty) + " nodes hold no part of a neighbour")
@@ -99,35 +69,86 @@ namespace perideal
   }
 
   template <int dim>
-  void GaussOperator<dim>::weigh(const LocalIndex i, const LocalIndex j, Bonds &bonds) const
+  template <unsigned int n>
+  void GaussOperator<dim>::weigh(const LocalIndex i, const LocalIndex j, Bonds<n> &bonds) const
   {
-    const unsigned int n      = points->n_points();
-    const double      *volume = points->volume(j), *width = points->width(j);
-    const double       near = far_factor[j] * half_modulus[i], far = far_factor[j] * half_modulus[j];
-    const double       near_horizon = families->horizon[i], far_horizon = families->horizon[j];
+    const double *volume = points->volume(j), *width = points->width(j);
+    const double  near = far_factor[j] * half_modulus[i], far = far_factor[j] * half_modulus[j];
+    const double  near_horizon = families->horizon[i], far_horizon = families->horizon[j];
     // A point in the node itself has no bond.
     const double smallest = 1e-20 * near_horizon * near_horizon;
-    bonds.weight.resize(n);
-    std::fill(bonds.weight.begin(), bonds.weight.end(), 0.);
-    double *weight = bonds.weight.data();
+    for (unsigned int g = 0; g < n; ++g)
+      bonds.weight[g] = 0.;
     for (int d = 0; d < dim; ++d)
       {
-        bonds.xi[d].resize(n);
-        double       *xi = bonds.xi[d].data();
         const double *x  = points->coordinate(j, d);
         const double  xd = families->position[i][d];
         for (unsigned int g = 0; g < n; ++g)
           {
-            xi[g] = x[g] - xd;
-            weight[g] += xi[g] * xi[g];
+            bonds.xi[d][g] = x[g] - xd;
+            bonds.weight[g] += bonds.xi[d][g] * bonds.xi[d][g];
           }
       }
     for (unsigned int g = 0; g < n; ++g)
       {
-        const double square = weight[g], length = std::sqrt(square);
-        const double modulus = near * linear_share(near_horizon, width[g], length) +
-                               far * linear_share(far_horizon, width[g], length);
-        weight[g] = square > smallest ? modulus * volume[g] / (square * length) : 0.;
+        // As linear_share(), of both horizons.
+        const double square = bonds.weight[g], length = std::sqrt(square), per_width = 1. / width[g];
+        const auto   share = [&](const double horizon) {
+          return std::min(1., std::max(0., (horizon - length) * per_width + 0.5));
+        };
+        const double modulus = near * share(near_horizon) + far * share(far_horizon);
+        bonds.weight[g]      = square > smallest ? modulus * volume[g] / (square * length) : 0.;
+      }
+  }
+
+  template <int dim>
+  template <unsigned int n>
+  GlobalIndex GaussOperator<dim>::count_empty_families() const
+  {
+    GlobalIndex result = 0;
+    Bonds<n>    bonds;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        double sum = 0;
+        visit_cells(*families, i, [&](const LocalIndex j) {
+          weigh(i, j, bonds);
+          for (const double weight : bonds.weight)
+            sum += weight;
+        });
+        result += sum > 0 ? 0 : 1;
+      }
+    return result;
+  }
+
+  template <int dim>
+  template <unsigned int n>
+  void GaussOperator<dim>::sum_forces(NodalVector &force, const NodalVector &displacement) const
+  {
+    // Sums of four points at once; their order is fixed, so that sums are the same on any processor.
+    constexpr unsigned int n_sums = n % 4 == 0 ? 4 : 1;
+    Bonds<n>               bonds;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        double u[dim], sums[dim][n_sums] = {};
+        for (int d = 0; d < dim; ++d)
+          u[d] = displacement.local_element(dim * i + d);
+        visit_cells(*families, i, [&](const LocalIndex j) {
+          weigh(i, j, bonds);
+          const double *v = at_points.begin() + std::size_t(dim) * j * n;
+          for (unsigned int g = 0; g < n; g += n_sums)
+            for (unsigned int s = 0; s < n_sums; ++s)
+              {
+                double along = 0;
+                for (int d = 0; d < dim; ++d)
+                  along += bonds.xi[d][g + s] * (v[d * n + g + s] - u[d]);
+                along *= bonds.weight[g + s];
+                for (int d = 0; d < dim; ++d)
+                  sums[d][s] += along * bonds.xi[d][g + s];
+              }
+        });
+        for (int d = 0; d < dim; ++d)
+          force.local_element(dim * i + d) =
+            -families->volume[i] * std::accumulate(sums[d], sums[d] + n_sums, 0.);
       }
   }
 
@@ -135,20 +156,7 @@ namespace perideal
   void GaussOperator<dim>::vmult(NodalVector &force, const NodalVector &displacement) const
   {
     points->interpolate(displacement, at_points);
-    const unsigned int n = points->n_points();
-    Bonds              bonds;
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      {
-        double u[dim], sum[dim] = {};
-        for (int d = 0; d < dim; ++d)
-          u[d] = displacement.local_element(dim * i + d);
-        visit_cells(*families, i, [&](const LocalIndex j) {
-          weigh(i, j, bonds);
-          add_pull<dim>(n, bonds.xi, bonds.weight, at_points.begin() + std::size_t(dim) * j * n, u, sum);
-        });
-        for (int d = 0; d < dim; ++d)
-          force.local_element(dim * i + d) = -families->volume[i] * sum[d];
-      }
+    visit_n_points<dim>(points->n_points(), [&](const auto n) { sum_forces<n()>(force, displacement); });
     at_points.zero_out_ghost_values();
   }
 
@@ -159,8 +167,22 @@ namespace perideal
     // gets its part from there.
     constexpr unsigned int entries = dim * dim;
     NodalVector            blocks(families->make_partitioner(entries));
-    const unsigned int     n = points->n_points();
-    Bonds                  bonds;
+    visit_n_points<dim>(points->n_points(), [&](const auto n) { sum_blocks<n()>(blocks); });
+    blocks.compress(dealii::VectorOperation::add);
+    std::vector<dealii::Tensor<2, dim>> result(families->n_owned());
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          result[i][a][b] = blocks.local_element(entries * i + dim * a + b);
+    return result;
+  }
+
+  template <int dim>
+  template <unsigned int n>
+  void GaussOperator<dim>::sum_blocks(NodalVector &blocks) const
+  {
+    constexpr unsigned int entries = dim * dim;
+    Bonds<n>               bonds;
     for (LocalIndex j = 0; j < families->n_owned(); ++j)
       {
         const auto support = points->support(j);
@@ -177,20 +199,19 @@ namespace perideal
             }
         });
       }
-    blocks.compress(dealii::VectorOperation::add);
-    std::vector<dealii::Tensor<2, dim>> result(families->n_owned());
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b)
-          result[i][a][b] = blocks.local_element(entries * i + dim * a + b);
-    return result;
   }
 
   template <int dim>
   void GaussOperator<dim>::assemble(const typename BondOperator<dim>::AddBlock &add) const
   {
-    const unsigned int       n = points->n_points();
-    Bonds                    bonds;
+    visit_n_points<dim>(points->n_points(), [&](const auto n) { assemble_cells<n()>(add); });
+  }
+
+  template <int dim>
+  template <unsigned int n>
+  void GaussOperator<dim>::assemble_cells(const typename BondOperator<dim>::AddBlock &add) const
+  {
+    Bonds<n>                 bonds;
     std::vector<GlobalIndex> nodes, unknowns;
     std::vector<double>      values;
     for (LocalIndex j = 0; j < families->n_owned(); ++j)

@@ -12,6 +12,8 @@ namespace perideal
                             const RigidBodyMotions<dim>                                     &motions,
                             const std::vector<typename RigidBodyMotions<dim>::Coefficients> &free,
                             const NodalVector                                               &layout)
+    : motions(motions)
+    , free(free)
   {
     for (const auto &motion : free)
       {
@@ -45,6 +47,23 @@ namespace perideal
       square += std::pow(vector * motion, 2);
     const double norm = vector.l2_norm();
     return norm > 0 ? std::sqrt(square) / norm : 0.;
+  }
+
+  template <int dim>
+  double NullSpace<dim>::share_in(const std::vector<Force> &forces, MPI_Comm communicator) const
+  {
+    std::vector<double> sums(free.size() + 1, 0.);
+    for (const Force &force : forces)
+      {
+        for (std::size_t k = 0; k < free.size(); ++k)
+          sums[k] += motions->value(free[k], force.first) * force.second;
+        sums.back() += force.second.norm();
+      }
+    dealii::Utilities::MPI::sum(sums, communicator, sums);
+    double square = 0;
+    for (std::size_t k = 0; k < free.size(); ++k)
+      square += sums[k] * sums[k];
+    return sums.back() > 0 ? std::sqrt(square) / sums.back() : 0.;
   }
 
   template <int dim>

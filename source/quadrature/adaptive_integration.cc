@@ -91,21 +91,6 @@ namespace perideal
         }
     }
 
-    /// From the first to the last pair of kinks between which there is something.
-    template <typename Test>
-    Interval support(const std::vector<double> &kinks, const Test &is_there)
-    {
-      Interval result = {1., 0.};
-      for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-        if (is_there(0.5 * (kinks[k] + kinks[k + 1])))
-          {
-            if (result.begin > result.end)
-              result.begin = kinks[k];
-            result.end = kinks[k + 1];
-          }
-      return result;
-    }
-
     /// Points of a polygon with a disk: visit(y, z, weight).
     template <typename Visit>
     void visit_section(const DiskedPolygon  &section,
@@ -138,21 +123,12 @@ namespace perideal
             }
           return;
         }
-      const Interval range = support(kinks, [&](const double y) { return section.has_chord(y); });
-      if (range.begin < range.end)
-        visit_trapezoid(range, level, [&](const double y, const double weight) {
+      for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
+        visit_trapezoid({kinks[k], kinks[k + 1]}, level, [&](const double y, const double weight) {
           section.find_chords(y, chords);
           for (const Interval &chord : chords)
             visit_trapezoid(chord, level, [&](const double z, const double w) { visit(y, z, weight * w); });
         });
-    }
-
-    bool has_area(const DiskedPolygon &section)
-    {
-      std::vector<double> kinks;
-      section.find_kinks(kinks);
-      const Interval range = support(kinks, [&](const double y) { return section.has_chord(y); });
-      return range.begin < range.end;
     }
 
     /// Points of a cell with a ball: visit(coordinates, weight).
@@ -194,9 +170,8 @@ namespace perideal
             }
           return;
         }
-      const Interval range = support(kinks, [&](const double x) { return has_area(sections.section(x)); });
-      if (range.begin < range.end)
-        visit_trapezoid(range, level, at);
+      for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
+        visit_trapezoid({kinks[k], kinks[k + 1]}, level, at);
     }
 
     /// The axes, that along which the cell lies from the centre last: there the limits slope least.

@@ -102,13 +102,6 @@ namespace perideal
       }
   }
 
-  bool DiskedPolygon::has_chord(const double y) const
-  {
-    std::vector<Interval> chords;
-    find_chords(y, chords);
-    return !chords.empty();
-  }
-
   bool DiskedPolygon::ends_at_disk(const double y) const
   {
     std::vector<Interval> chords;

@@ -62,6 +62,7 @@ namespace perideal
     // Who lies near enough is found as families are, with supports for horizons.
     NodeCloud<dim> cloud = nodes;
     cloud.margin         = 0;
+    cloud.cell_radius.clear();
     cloud.shape.clear();
     for (LocalIndex j = 0; j < n_owned; ++j)
       {

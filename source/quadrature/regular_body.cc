@@ -15,7 +15,8 @@ namespace perideal
     // A body of this rank alone, large enough for the family of its middle.
     const unsigned int reach = static_cast<unsigned int>(std::ceil(parameters.horizon_factor)) + 1;
     Mesh<dim>          mesh(MPI_COMM_SELF);
-    dealii::GridGenerator::subdivided_hyper_cube(mesh.triangulation, 2 * reach + 1, -0.5 - reach, 0.5 + reach);
+    dealii::GridGenerator::subdivided_hyper_cube(
+      mesh.triangulation, 2 * reach + 1, -0.5 - reach, 0.5 + reach);
     NodeParameters spheres = parameters;
     spheres.horizon_shape  = "sphere";
     Nodes<dim> nodes(mesh, spheres);

@@ -44,6 +44,7 @@ def listed_scene(program, folder):
     load = "Point loads/ANY NAME/"
     values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
               load + "Point=1, 0.5", load + "F_x=1",
+              "Comparison/ANY NAME/From=0, 0.5", "Comparison/ANY NAME/To=1, 0.5",
               "Solver/Name=dynamics", "Solver/End time=1e-4",
               "Precracks/ANY NAME/Points=0, 0.5; 0.5, 0.5", "Cracks/ANY NAME/Origin=0.5, 0.5",
               "No-fail zones/ANY NAME/Box=0, 0; 0.5, 0.5",

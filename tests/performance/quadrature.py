@@ -35,10 +35,11 @@ SCHEMES = {
     "gauss 2": [GAUSS, "Quadrature/Gauss points=2"],
     "gauss 3": [GAUSS, "Quadrature/Gauss points=3"],
     "gauss 4": [GAUSS, "Quadrature/Gauss points=4"],
+    "exact, energy of the sphere": ["Quadrature/Scheme=exact", "Material/Boundary compensation=sphere"],
     "exact, missing bonds": ["Quadrature/Scheme=exact", MISSING],
     "gauss 2, missing bonds": [GAUSS, "Quadrature/Gauss points=2", MISSING],
     "multipliers (energy form)": [EXTENDED, "Material/Form=energy", "Quadrature/Scheme=one point"],
-    "consistent form": [EXTENDED, "Material/Form=consistent", "Quadrature/Scheme=one point"],
+    "consistent form": [EXTENDED, "Material/Form=consistent", "Quadrature/Scheme=one point", "Boundary conditions/Layers=1"],
 }
 PROBLEMS = {
     "column": ("prm/examples/tension_column.prm",

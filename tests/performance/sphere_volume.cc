@@ -99,7 +99,7 @@ namespace
     const double ball = 4 * dealii::numbers::PI / 3 * m * m * m;
     // The thesis' horizon is 18 h.
     const double adip = 18. / m * std::cbrt(ball / sum.points);
-    std::printf("| d/%d | %s | %.2g | %zu | %.3f | %.0f |\n",
+    std::printf("| d/%d | %s | %.4g | %zu | %.3f | %.0f |\n",
                 m,
                 name.c_str(),
                 100 * std::abs(sum.volume / ball - 1),

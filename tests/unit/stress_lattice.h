@@ -4,6 +4,7 @@
 
 #include <perideal/materials/bond_based.h>
 #include <perideal/operators/partial_stress.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -93,14 +94,18 @@ namespace perideal::test
           for (int k = -m; k <= m; ++k)
             if (const int square = i * i + j * j + k * k; square > 0 && square <= m * m)
               add({i * spacing, j * spacing, k * spacing}, spacing, 1e-6 * spacing);
-      nodes.margin       = 0.5;
       nodes.communicator = MPI_COMM_SELF;
       nodes.number();
-      families = std::make_shared<const Families<3>>(nodes);
+      QuadratureParameters quadrature;
+      quadrature.scheme = "cubic cell";
+      families          = std::make_shared<const Families<3>>(nodes, create_volume_rule<3>(quadrature));
       BondBased<3> model(1.);
-      force = create_bond_force<3>(*weigh_bonds<3>(families, model, [](const dealii::types::material_id) {
-        return InfiniteBody::solid(2. * InfiniteBody::young);
-      }));
+      // No bond is cut, but families may be empty.
+      force = create_bond_force<3>(*weigh_bonds<3>(
+        families,
+        model,
+        [](const dealii::types::material_id) { return InfiniteBody::solid(2. * InfiniteBody::young); },
+        [](const dealii::Point<3> &, const dealii::Point<3> &) { return false; }));
     }
 
     /// Of the first node [Pa].

@@ -88,12 +88,14 @@ namespace perideal
     /// External forces by tractions, body forces and point loads. Collective.
     void apply_forces(const double time);
     void check_loads();
-    void step(const unsigned int number);
-    void solve_equilibrium(const double time);
-    void store_displacement();
-    void record_step(const unsigned int number, const double time);
-    void write_fields(const unsigned int number, const double time);
-    void compare_at_end(const double time);
+    /// Tractions of faces, body forces and point loads of this rank as forces at their places, at t = 1.
+    std::vector<typename NullSpace<dim>::Force> forces_on_body() const;
+    void                                        step(const unsigned int number);
+    void                                        solve_equilibrium(const double time);
+    void                                        store_displacement();
+    void                                        record_step(const unsigned int number, const double time);
+    void                                        write_fields(const unsigned int number, const double time);
+    void                                        compare_at_end(const double time);
 
     // Failure, of relaxation and dynamics.
     void prepare_cracks();

@@ -32,6 +32,9 @@ namespace perideal
                               const double                                horizon,
                               const typename LinearModel<dim>::Kinematics kinematics) const override;
 
+    /// int |xi| dV over the sphere of a horizon [m^4], in 2-D over the circle with unit thickness.
+    static double sphere_moment(const double horizon);
+
     /// c of a node with a horizon [N/m^6]; kappa of the problem's dimension [Pa].
     static double micromodulus(const double bulk_modulus, const double horizon, const double thickness);
 

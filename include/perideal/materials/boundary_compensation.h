@@ -7,8 +7,8 @@
 namespace perideal
 {
   /**
-   * The boundary effect compensation factor of a node at a depth h below a plane surface: the energy of an isotropic
-   * expansion in a whole family of bond-based peridynamics over that in the part within the body,
+   * The boundary effect compensation factor of a node at a depth h below a plane surface: the energy of an
+   * isotropic expansion in a whole family of bond-based peridynamics over that in the part within the body,
    *
    *     beta_s = int |xi| dV (whole) / int |xi| dV (part) = 6 d^4/(3 d^4 + 4 d^3 h - h^4) in 3-D,
    *
@@ -18,8 +18,8 @@ namespace perideal
   template <int dim>
   double plane_compensation(const double horizon, const double depth);
 
-  /// That of several planes: as if each took its share of what the others leave, which is so at square edges and
-  /// corners (h = 0), and where horizons reach one plane only.
+  /// That of several planes: as if each took its share of what the others leave, which is so at square edges
+  /// and corners (h = 0), and where horizons reach one plane only.
   template <int dim>
   double plane_compensation(const double horizon, const std::vector<double> &depths);
 } // namespace perideal

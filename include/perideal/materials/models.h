@@ -25,7 +25,7 @@ namespace perideal
     /// precracks cut, and that broke.
     std::string multipliers = "intact";
 
-    /// none | numerical | closed form: how bonds are stiffened near the surface.
+    /// none | numerical | sphere | closed form: how bonds are stiffened near the surface.
     std::string boundary_compensation = "none";
     /// mean | neighbour: which end's factor a bond has.
     std::string compensation_of_a_bond = "mean";

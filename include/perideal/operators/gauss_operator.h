@@ -50,12 +50,25 @@ namespace perideal
     std::size_t         memory_consumption() const override;
 
   private:
-    /// The bonds from a node to the points of one cell: xi, and c beta V/|xi|^3.
+    /// The bonds from a node to the n points of one cell: xi, and c beta V/|xi|^3.
+    template <unsigned int n>
     struct Bonds
     {
-      std::vector<double> xi[dim], weight;
+      alignas(32) double xi[dim][n];
+      alignas(32) double weight[n];
     };
-    void weigh(const LocalIndex i, const LocalIndex j, Bonds &bonds) const;
+    template <unsigned int n>
+    void weigh(const LocalIndex i, const LocalIndex j, Bonds<n> &bonds) const;
+
+    // The loops, for the numbers of points that cells can have.
+    template <unsigned int n>
+    GlobalIndex count_empty_families() const;
+    template <unsigned int n>
+    void sum_forces(NodalVector &force, const NodalVector &displacement) const;
+    template <unsigned int n>
+    void sum_blocks(NodalVector &blocks) const;
+    template <unsigned int n>
+    void assemble_cells(const typename BondOperator<dim>::AddBlock &add) const;
 
     std::shared_ptr<const Families<dim>>    families;
     std::shared_ptr<const GaussPoints<dim>> points;

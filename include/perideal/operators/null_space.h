@@ -5,6 +5,8 @@
 #include <perideal/base/rigid_body_motions.h>
 #include <perideal/nodes/nodes.h>
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace perideal
@@ -33,11 +35,19 @@ namespace perideal
     /// Size of the part of @p vector along the motions, relative to the vector.
     double share_in(const NodalVector &vector) const;
 
+    /// A force and where it acts [m], [N].
+    using Force = std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>;
+
+    /// The work of forces of all ranks along the motions, over their sizes. Collective.
+    double share_in(const std::vector<Force> &forces, MPI_Comm communicator) const;
+
     /// Takes the volume-weighted mean motions out of a displacement field.
     void remove_mean(const NodeCloud<dim> &nodes, std::vector<dealii::Tensor<1, dim>> &displacement) const;
 
   private:
-    /// Orthonormal.
+    std::optional<RigidBodyMotions<dim>>                      motions;
+    std::vector<typename RigidBodyMotions<dim>::Coefficients> free;
+    /// Those as nodal fields, orthonormal.
     std::vector<NodalVector> basis;
   };
 

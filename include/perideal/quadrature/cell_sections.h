@@ -36,8 +36,7 @@ namespace perideal
     /// The parts of the line at @p y that lie in both.
     void find_chords(const double y, std::vector<Interval> &chords) const;
 
-    /// Whether chords at @p y have a length, and whether some end at the disk.
-    bool has_chord(const double y) const;
+    /// Whether some chords at @p y end at the disk.
     bool ends_at_disk(const double y) const;
 
   private:

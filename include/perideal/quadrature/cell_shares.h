@@ -14,7 +14,8 @@ namespace perideal
   template <int dim>
   std::shared_ptr<const VolumeRule<dim>> create_exact_shares();
 
-  /// The same by adaptive integration over the cells that horizons cut.
+  /// The same by adaptive integration over the cells that horizons cut; in closed form where it does not
+  /// converge.
   template <int dim>
   std::shared_ptr<const VolumeRule<dim>> create_adaptive_shares(const IntegrationRule       rule,
                                                                 const IntegrationTolerance &tolerance);

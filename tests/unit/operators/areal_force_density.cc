@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include "bodies.h"
+#include "springs.h"
 #include "stress_lattice.h"
 #include "testing.h"
 
@@ -21,12 +22,7 @@ namespace
 
   using Variant = std::pair<std::string, std::string>;
 
-  const std::vector<Variant> variants = {{"bond based", "energy"},
-                                         {"ordinary", "energy"},
-                                         {"extended ordinary", "paper"},
-                                         {"extended ordinary", "energy"},
-                                         {"tensor involved", "one point"},
-                                         {"tensor involved", "moment corrected"}};
+  const std::vector<Variant> &variants = test::bond_models;
 
   /// Cubes of one, and at the node next to their middle planes along the axes.
   template <int dim>

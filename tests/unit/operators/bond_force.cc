@@ -5,6 +5,7 @@
 #include <perideal/quadrature/bond_volume.h>
 
 #include "bodies.h"
+#include "springs.h"
 #include "testing.h"
 
 #include <cmath>
@@ -17,12 +18,7 @@ namespace
 {
   using Variant = std::pair<std::string, std::string>;
 
-  const std::vector<Variant> variants = {{"bond based", "energy"},
-                                         {"ordinary", "energy"},
-                                         {"extended ordinary", "paper"},
-                                         {"extended ordinary", "energy"},
-                                         {"tensor involved", "one point"},
-                                         {"tensor involved", "moment corrected"}};
+  const std::vector<Variant> &variants = test::bond_models;
 
   /// Bonds with tensors pull sideways, which has a moment, and feel rotations.
   bool is_central(const Variant &variant)

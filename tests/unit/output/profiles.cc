@@ -169,3 +169,34 @@ TEST(BoundaryProfile, OfAnAbsentBoundaryHasAHeaderOnly)
   EXPECT_TRUE(write_and_read(mesh, 99, "absent").empty());
   EXPECT_EQ(header_of("absent"), "s [m],x [m],y [m],pd_u_x,pd_u_y");
 }
+
+TEST(LineProfile, TakesTheCellsThatTheLinePassesThrough)
+{
+  Mesh<2> mesh(MPI_COMM_WORLD);
+  dealii::GridGenerator::subdivided_hyper_rectangle(
+    mesh.triangulation, {8, 4}, dealii::Point<2>(0, 0), dealii::Point<2>(8, 4));
+  const Nodes<2>    nodes(mesh, NodeParameters());
+  const std::string directory = scratch_directory("line");
+  create_output_directory(directory, MPI_COMM_WORLD);
+  const auto rows_of = [&](const dealii::Point<2> &from, const dealii::Point<2> &to) {
+    LineProfile<2>(mesh, nodes, from, to).write(directory + "/profile.csv", {{"pd", sample_at_nodes(nodes)}});
+    return read_csv(directory + "/profile.csv");
+  };
+
+  // Along a row of nodes, from its second cell on and backwards: by distance from the beginning.
+  const auto along = rows_of({6.2, 1.5}, {1.8, 1.5});
+  ASSERT_EQ(along.size(), 6u);
+  for (unsigned int k = 0; k < 6; ++k)
+    {
+      EXPECT_NEAR(along[k][0], k - 0.3, 1e-12);
+      EXPECT_NEAR(along[k][1], 6.5 - k, 1e-12);
+    }
+  expect_values_at_their_points<2>(along);
+  EXPECT_EQ(header_of("line"), "s [m],x [m],y [m],pd_u_x,pd_u_y");
+
+  // On the edge between two rows: the cells of both.
+  EXPECT_EQ(rows_of({0.5, 2.}, {2.5, 2.}).size(), 6u);
+  // Across, and through no cell at all.
+  EXPECT_EQ(rows_of({3.5, -1.}, {3.5, 9.}).size(), 4u);
+  EXPECT_EQ(rows_of({0., 5.}, {8., 5.}).size(), 0u);
+}

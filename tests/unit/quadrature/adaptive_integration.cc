@@ -122,16 +122,17 @@ TEST(AdaptiveIntegration, GaussKeepsItsPromise)
     }
 }
 
-/// Halving stops where the change is small, and that is not where the error is; or where a small part is
-/// missed by the first points, none, as the absolute tolerance allows.
-TEST(AdaptiveIntegration, TrapezoidBreaksIts)
+/// The thesis' rule promises as much and keeps it but for a few: halving stops where the change is small, and
+/// that is not always where the error is.
+TEST(AdaptiveIntegration, TrapezoidMostlyKeepsItsPromise)
 {
   const Record solid = record<3>(100, IntegrationRule::trapezoid, 1e-2);
-  EXPECT_GT(solid.broken, 0u);
-  EXPECT_LT(solid.worst, 1.);
+  EXPECT_LE(solid.broken, 4u);
+  EXPECT_EQ(solid.unfinished, 0u);
+  EXPECT_LT(solid.worst, 0.2);
   const Record plane = record<2>(1000, IntegrationRule::trapezoid, 1e-3);
-  EXPECT_GT(plane.broken, 0u);
-  EXPECT_LT(plane.worst, 1.);
+  EXPECT_LE(plane.broken, 4u);
+  EXPECT_EQ(plane.unfinished, 0u);
 }
 
 TEST(AdaptiveIntegration, WholeCellsConvergeAtOnce)

@@ -3,6 +3,7 @@
 #include <perideal/quadrature/bond_volume.h>
 
 #include "bodies.h"
+#include "springs.h"
 #include "testing.h"
 
 #include <algorithm>
@@ -144,14 +145,7 @@ namespace
         model.compute(view, coefficients);
         for (const auto &strain : strains)
           {
-            double energy = 0;
-            for (LocalIndex k = 0; k < view.size; ++k)
-              {
-                dealii::Tensor<1, dim> bond;
-                for (int d = 0; d < dim; ++d)
-                  bond[d] = view.bond[d][k];
-                energy += 0.5 * coefficients.stiffness[k] * std::pow(bond * (strain * bond), 2);
-              }
+            const double energy = test::spring_energy<dim>(view, coefficients, strain);
             // The same over the grid: c/4 sum s^2 |xi| beta, c = 2 dim^2 kappa/int |xi| dV.
             using dealii::numbers::PI;
             const double integral = dim == 2 ? 2 * PI / 3 * std::pow(factor, 3) : PI * std::pow(factor, 4);

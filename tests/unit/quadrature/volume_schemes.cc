@@ -4,6 +4,7 @@
 #include <perideal/quadrature/cell_in_ball.h>
 
 #include "bodies.h"
+#include "springs.h"
 #include "testing.h"
 
 #include <deal.II/base/numbers.h>
@@ -73,14 +74,7 @@ namespace
     double worst                                           = 0;
     for (const auto &strain : strains)
       {
-        double energy = 0;
-        for (LocalIndex k = 0; k < view.size; ++k)
-          {
-            dealii::Tensor<1, dim> bond;
-            for (int d = 0; d < dim; ++d)
-              bond[d] = view.bond[d][k];
-            energy += 0.5 * coefficients.stiffness[k] * std::pow(bond * (strain * bond), 2);
-          }
+        const double energy   = test::spring_energy<dim>(view, coefficients, strain);
         const double trace_of = trace(strain);
         const double exact =
           0.5 * kappa * trace_of * trace_of + mu * (strain.norm_square() - trace_of * trace_of / dim);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_tests_unit_springs_h
+#define perideal_tests_unit_springs_h
+
+#include <perideal/materials/linear_model.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace perideal::test
+{
+  /// Strain energy of a family of springs under a uniform strain [J].
+  template <int dim>
+  double spring_energy(const FamilyView<dim>        &view,
+                       const FamilyCoefficients     &coefficients,
+                       const dealii::Tensor<2, dim> &strain)
+  {
+    double energy = 0;
+    for (LocalIndex k = 0; k < view.size; ++k)
+      {
+        dealii::Tensor<1, dim> bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = view.bond[d][k];
+        energy += 0.5 * coefficients.stiffness[k] * std::pow(bond * (strain * bond), 2);
+      }
+    return energy;
+  }
+
+  /// Model and form of everything made of bonds that may move.
+  inline const std::vector<std::pair<std::string, std::string>> bond_models = {
+    {"bond based", "energy"},
+    {"ordinary", "energy"},
+    {"extended ordinary", "paper"},
+    {"extended ordinary", "energy"},
+    {"tensor involved", "one point"},
+    {"tensor involved", "moment corrected"}};
+} // namespace perideal::test
+
+#endif
