@@ -86,7 +86,7 @@ namespace perideal
         throw InputError("bonds between Gauss points are no bonds between nodes")
           .parameter("Areal force densities/" + result->name(k) + "/Rule")
           .given(points[k].rule)
-          .allowed("line, in one material; or set Quadrature/Scheme = one point | partial volume");
+          .allowed("line, in one material; or set another Quadrature/Scheme");
     return result;
   }
 

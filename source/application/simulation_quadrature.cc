@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/exceptions.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/materials/boundary_compensation.h>
 #include <perideal/operators/gauss_operator.h>
@@ -71,6 +72,12 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::add_missing_bonds()
   {
+    // Between materials a uniform strain needs forces that no missing bond stands for.
+    if (scene.mesh->material_ids.size() > 1)
+      throw InputError("what missing bonds do is known in bodies of one material")
+        .parameter("Boundary conditions/Traction treatment")
+        .given(parameters.loads.traction_treatment)
+        .allowed("automatic | layer for several cell groups");
     const Timings::Scope part(timings, "setup: missing bonds");
     scene.missing_bonds =
       std::make_shared<MissingBonds<dim>>(scene.bonds,

@@ -21,10 +21,10 @@ namespace perideal
    *
    *     F_i(missing) = M_i eps,    M_i E = (K (E x))_i,
    *
-   * on any mesh and for any model whose uniform strains need no forces inside the body. The strain that they
-   * see is that of the solution (face gradient) as far as the known tractions t_k on the planes n_k of the
-   * surface near the node leave it open: of all stresses with sigma n_k = t_k that which is nearest to the
-   * solution's,
+   * on any mesh of one material and for any model whose uniform strains need no forces inside the body. The
+   * strain that they see is that of the solution (face gradient) as far as the known tractions t_k on the
+   * planes n_k of the surface near the node leave it open: of all stresses with sigma n_k = t_k that which is
+   * nearest to the solution's,
    *
    *     eps* = eps - C^-1 A^+ (A C eps - t),    A sigma = (sigma n_k)_k,
    *
