@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
-#include <perideal/base/exceptions.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/materials/boundary_compensation.h>
 #include <perideal/operators/gauss_operator.h>
@@ -8,7 +7,8 @@
 
 #include <cmath>
 
-// Simulation: bonds whose cells have several points, and what makes up for bonds that are missing.
+// Simulation: bonds whose cells have several points, and factors that make up for those missing at the
+// surface.
 
 namespace perideal
 {
@@ -69,30 +69,9 @@ namespace perideal
     scene.bonds = std::make_shared<GaussOperator<dim>>(scene.families, points, modulus, stiffening);
   }
 
-  template <int dim>
-  void Simulation<dim>::add_missing_bonds()
-  {
-    // Between materials a uniform strain needs forces that no missing bond stands for.
-    if (scene.mesh->material_ids.size() > 1)
-      throw InputError("what missing bonds do is known in bodies of one material")
-        .parameter("Boundary conditions/Traction treatment")
-        .given(parameters.loads.traction_treatment)
-        .allowed("automatic | layer for several cell groups");
-    const Timings::Scope part(timings, "setup: missing bonds");
-    scene.missing_bonds =
-      std::make_shared<MissingBonds<dim>>(scene.bonds,
-                                          scene.gradient,
-                                          find_surface_planes<dim>(*scene.nodes, scene.surface),
-                                          scene.loads,
-                                          scene.condition_boundaries,
-                                          solid_of_model());
-    scene.bonds = scene.missing_bonds;
-  }
-
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template std::vector<double> Simulation<dim>::compensation_factors(const GaussPoints<dim> *) const;        \
-  template void                Simulation<dim>::weigh_gauss_points();                                        \
-  template void                Simulation<dim>::add_missing_bonds();
+  template void                Simulation<dim>::weigh_gauss_points();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

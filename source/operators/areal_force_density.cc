@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/boundary/surface_planes.h>
 #include <perideal/operators/areal_force_density.h>
 #include <perideal/quadrature/moving_least_squares.h>
 
@@ -69,24 +70,18 @@ namespace perideal
                                   const double                          horizon,
                                   MPI_Comm                              communicator)
     {
-      std::vector<std::vector<dealii::Point<dim>>> corners;
-      std::vector<Tensor<1, dim>>                  normals;
+      std::vector<BoundaryFace<dim>> near;
       for (const BoundaryFace<dim> &face : faces)
         {
           double size = 0;
           for (const auto &vertex : face.vertices)
             size = std::max(size, vertex.distance(face.centre));
           if (face.centre.distance(x) <= horizon + size)
-            {
-              corners.push_back(face.vertices);
-              normals.push_back(face.normal);
-            }
+            near.push_back(face);
         }
-      corners = join(corners, communicator);
-      normals = join(normals, communicator);
       BodyRays<dim> result;
-      for (std::size_t k = 0; k < corners.size(); ++k)
-        result.add_face(corners[k], normals[k]);
+      for (const SurfaceFace<dim> &face : gather_faces(near, communicator))
+        result.add_face({face.vertices.begin(), face.vertices.end()}, face.normal);
       return result;
     }
   } // namespace

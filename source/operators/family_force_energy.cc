@@ -83,7 +83,7 @@ namespace perideal
             for (unsigned int a = 0; a < n_sums; ++a)
               magnitude += weights.force_weights()[a].near[slot] * state[a][i] +
                            weights.force_weights()[a].far[slot] * state[a][j];
-            visit(i, j, magnitude * rest / length * y);
+            visit(i, j, length > 0 ? magnitude * rest / length * y : dealii::Tensor<1, dim>());
           }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/operators/gauss_operator.h>
+#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
@@ -91,13 +92,11 @@ namespace perideal
       }
     for (unsigned int g = 0; g < n; ++g)
       {
-        // As linear_share(), of both horizons.
+        // linear_share() of both horizons, with one division.
         const double square = bonds.weight[g], length = std::sqrt(square), per_width = 1. / width[g];
-        const auto   share = [&](const double horizon) {
-          return std::min(1., std::max(0., (horizon - length) * per_width + 0.5));
-        };
-        const double modulus = near * share(near_horizon) + far * share(far_horizon);
-        bonds.weight[g]      = square > smallest ? modulus * volume[g] / (square * length) : 0.;
+        const double modulus = near * clamped_share((near_horizon - length) * per_width) +
+                               far * clamped_share((far_horizon - length) * per_width);
+        bonds.weight[g] = square > smallest ? modulus * volume[g] / (square * length) : 0.;
       }
   }
 
@@ -109,8 +108,11 @@ namespace perideal
     Bonds<n>    bonds;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
+        // The first cell mostly tells.
         double sum = 0;
         visit_cells(*families, i, [&](const LocalIndex j) {
+          if (sum > 0)
+            return;
           weigh(i, j, bonds);
           for (const double weight : bonds.weight)
             sum += weight;

@@ -102,33 +102,33 @@ namespace perideal
       std::vector<double>   kinks;
       std::vector<Interval> chords;
       section.find_kinks(kinks);
-      if (rule == IntegrationRule::gauss)
-        {
-          const double radius = std::sqrt(std::max(0., section.radius_square));
-          for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-            {
-              const Interval part = {kinks[k], kinks[k + 1]};
-              visit_gauss(part,
-                          section.ends_at_disk(0.5 * (part.begin + part.end)) ? Interval{-radius, radius} :
-                                                                                no_roots,
-                          outer_orders[level],
-                          [&](const double y, const double weight) {
-                            section.find_chords(y, chords);
-                            for (const Interval &chord : chords)
-                              visit_gauss(chord,
-                                          no_roots,
-                                          inner_orders[inner_level],
-                                          [&](const double z, const double w) { visit(y, z, weight * w); });
-                          });
-            }
-          return;
-        }
-      for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-        visit_trapezoid({kinks[k], kinks[k + 1]}, level, [&](const double y, const double weight) {
+      // visit_chord(chord, visit_point) has the points of a chord.
+      const auto along_chords = [&](const auto &visit_chord) {
+        return [&](const double y, const double weight) {
           section.find_chords(y, chords);
           for (const Interval &chord : chords)
-            visit_trapezoid(chord, level, [&](const double z, const double w) { visit(y, z, weight * w); });
-        });
+            visit_chord(chord, [&](const double z, const double w) { visit(y, z, weight * w); });
+        };
+      };
+      const auto gauss_chord = [&](const Interval &chord, const auto &visit_point) {
+        visit_gauss(chord, no_roots, inner_orders[inner_level], visit_point);
+      };
+      const auto trapezoid_chord = [&](const Interval &chord, const auto &visit_point) {
+        visit_trapezoid(chord, level, visit_point);
+      };
+      const double   radius = std::sqrt(std::max(0., section.radius_square));
+      const Interval disk   = {-radius, radius};
+      for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
+        {
+          const Interval part = {kinks[k], kinks[k + 1]};
+          if (rule == IntegrationRule::trapezoid)
+            visit_trapezoid(part, level, along_chords(trapezoid_chord));
+          else
+            visit_gauss(part,
+                        section.ends_at_disk(0.5 * (part.begin + part.end)) ? disk : no_roots,
+                        outer_orders[level],
+                        along_chords(gauss_chord));
+        }
     }
 
     /// Points of a cell with a ball: visit(coordinates, weight).
@@ -161,17 +161,14 @@ namespace perideal
           });
       };
       const std::vector<double> &kinks = sections.kinks();
-      if (rule == IntegrationRule::gauss)
-        {
-          for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-            {
-              const Interval part = {kinks[k], kinks[k + 1]};
-              visit_gauss(part, roots_around(part, sections.roots()), outer_orders[level], at);
-            }
-          return;
-        }
       for (std::size_t k = 0; k + 1 < kinks.size(); ++k)
-        visit_trapezoid({kinks[k], kinks[k + 1]}, level, at);
+        {
+          const Interval part = {kinks[k], kinks[k + 1]};
+          if (rule == IntegrationRule::trapezoid)
+            visit_trapezoid(part, level, at);
+          else
+            visit_gauss(part, roots_around(part, sections.roots()), outer_orders[level], at);
+        }
     }
 
     /// The axes, that along which the cell lies from the centre last: there the limits slope least.

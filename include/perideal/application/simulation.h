@@ -8,7 +8,6 @@
 #include <perideal/output/checkpoint.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
-#include <perideal/quadrature/gauss_points.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
@@ -23,6 +22,9 @@
 
 namespace perideal
 {
+  template <int dim>
+  class GaussPoints;
+
   /// What a run is told besides its parameters.
   struct RunContext
   {

@@ -46,6 +46,12 @@ namespace perideal
   template <int dim>
   std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &parameters);
 
+  /// What of a square or cube lies this side of a plane across it, by how many widths its middle does [-].
+  inline double clamped_share(const double widths)
+  {
+    return std::min(1., std::max(0., widths + 0.5));
+  }
+
   /**
    * The share of a square or cube of width D that lies within a distance d, when it is thought to lie across
    * a bond of length l [-]:
@@ -56,7 +62,7 @@ namespace perideal
    */
   inline double linear_share(const double distance, const double width, const double length)
   {
-    return std::min(1., std::max(0., (distance - length) / width + 0.5));
+    return clamped_share((distance - length) / width);
   }
 
   /**
