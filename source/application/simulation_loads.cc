@@ -34,6 +34,28 @@ namespace perideal
   }
 
   template <int dim>
+  void Simulation<dim>::add_taylor_ghosts()
+  {
+    // Between materials a uniform strain needs forces that no missing bond stands for.
+    if (scene.mesh->material_ids.size() > 1)
+      throw InputError("what missing bonds do is known in bodies of one material")
+        .parameter("Boundary conditions/Traction treatment")
+        .given(parameters.loads.traction_treatment)
+        .allowed("automatic | layer for several cell groups");
+    const Timings::Scope part(timings, "setup: ghosts");
+    scene.ghosts =
+      std::make_shared<TaylorGhosts<dim>>(scene.bonds,
+                                          scene.families,
+                                          *scene.nodes,
+                                          scene.faces,
+                                          scene.surface,
+                                          scene.loads,
+                                          scene.condition_boundaries,
+                                          solid_of_model()(*scene.mesh->material_ids.begin()).stiffness());
+    scene.bonds = scene.ghosts;
+  }
+
+  template <int dim>
   void Simulation<dim>::apply_forces(const double time)
   {
     const LoadParameters &loads = parameters.loads;
@@ -42,13 +64,16 @@ namespace perideal
         *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
     else
       compute_nodal_forces(*scene.nodes,
-                           loads.has_missing_bonds() || loads.has_line_to_point() ?
+                           loads.has_missing_bonds() || loads.has_taylor_ghosts() ||
+                               loads.has_line_to_point() ?
                              std::vector<BoundaryFace<dim>>() :
                              scene.faces,
                            scene.loads,
                            scene.condition_boundaries,
                            time,
                            external_force);
+    if (loads.has_taylor_ghosts())
+      scene.ghosts->add_known(scene.loads, time, external_force);
     if (loads.has_missing_bonds())
       scene.missing_bonds->add_tractions(scene.loads, time, external_force);
     if constexpr (dim == 3)
@@ -127,7 +152,8 @@ namespace perideal
     scene.system->initialize(residual);
     scene.system->residual(residual, external_force, displacement);
     // What bonds make of tractions balances up to their quadrature; the tractions themselves must.
-    const double share = parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point() ?
+    const double share = parameters.loads.has_missing_bonds() || parameters.loads.has_taylor_ghosts() ||
+                             parameters.loads.has_line_to_point() ?
                            scene.null_space.share_in(forces_on_body(), communicator) :
                            scene.null_space.share_in(residual);
     if (share > 1e-6)
@@ -138,11 +164,13 @@ namespace perideal
   }
 
   template void                             Simulation<2>::add_missing_bonds();
+  template void                             Simulation<2>::add_taylor_ghosts();
   template void                             Simulation<2>::apply_forces(const double);
   template void                             Simulation<2>::apply_loads(const double);
   template void                             Simulation<2>::check_loads();
   template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
   template void                             Simulation<3>::add_missing_bonds();
+  template void                             Simulation<3>::add_taylor_ghosts();
   template void                             Simulation<3>::apply_forces(const double);
   template void                             Simulation<3>::apply_loads(const double);
   template void                             Simulation<3>::check_loads();

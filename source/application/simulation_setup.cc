@@ -76,8 +76,8 @@ namespace perideal
     scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
     prepare_cells(parameters.quadrature, *scene.mesh, *scene.nodes);
     scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
-    if (parameters.loads.has_missing_bonds() || parameters.loads.has_line_to_point() ||
-        parameters.model.boundary_compensation == "closed form")
+    if (parameters.loads.has_missing_bonds() || parameters.loads.has_taylor_ghosts() ||
+        parameters.loads.has_line_to_point() || parameters.model.boundary_compensation == "closed form")
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.displacement_treatment == "mirror")
       {
@@ -87,16 +87,17 @@ namespace perideal
       }
     else
       {
-        const bool at_faces = parameters.loads.displacement_treatment == "face value";
-        scene.mirror        = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
-        scene.held          = parameters.loads.layers > 1 ?
-                                HeldNodes<dim>(*scene.mesh,
+        const bool at_faces = parameters.loads.displacement_treatment == "face value" ||
+                              parameters.loads.displacement_treatment == "taylor ghosts";
+        scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
+        scene.held   = parameters.loads.layers > 1 ?
+                         HeldNodes<dim>(*scene.mesh,
                                       *scene.nodes,
                                       scene.faces,
                                       scene.loads,
                                       scene.condition_boundaries,
                                       parameters.loads.layers) :
-                                HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                         HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
                                       scene.loads,
                                       scene.condition_boundaries,
                                       scene.nodes->size());
@@ -176,6 +177,8 @@ namespace perideal
       }
     if (parameters.loads.has_missing_bonds())
       add_missing_bonds();
+    if (parameters.loads.has_taylor_ghosts())
+      add_taylor_ghosts();
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
     scene.system =

@@ -58,7 +58,8 @@ namespace perideal
   void visit_nearby_faces(
     const NodeCloud<dim>                                                                       &nodes,
     const std::vector<SurfaceFace<dim>>                                                        &faces,
-    const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit)
+    const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit,
+    const double                                                                                horizons)
   {
     std::vector<dealii::Point<dim>> centres;
     double                          largest = 0;
@@ -73,7 +74,7 @@ namespace perideal
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
         const auto            &x     = nodes.position[i];
-        const double           reach = nodes.horizon[i] + largest;
+        const double           reach = horizons * nodes.horizon[i] + largest;
         dealii::Tensor<1, dim> step;
         for (int d = 0; d < dim; ++d)
           step[d] = reach;
@@ -82,7 +83,7 @@ namespace perideal
         tree.query(boost::geometry::index::intersects(box), std::back_inserter(found));
         near.clear();
         for (const std::size_t k : found)
-          if (x.distance(faces[k].centre) <= nodes.horizon[i] + faces[k].radius)
+          if (x.distance(faces[k].centre) <= horizons * nodes.horizon[i] + faces[k].radius)
             near.push_back(&faces[k]);
         // Faces at one distance in the order of their places, whatever rank they come from.
         std::sort(near.begin(), near.end(), [&](const auto *a, const auto *b) {
@@ -120,13 +121,14 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                                           \
-  template std::vector<SurfaceFace<dim>> gather_faces(const std::vector<BoundaryFace<dim>> &, MPI_Comm);                    \
-  template void                          visit_nearby_faces(                                                                \
-                             const NodeCloud<dim> &,                                                                        \
-                             const std::vector<SurfaceFace<dim>> &,                                                         \
-                             const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &); \
-  template std::vector<std::vector<SurfacePlane<dim>>> find_surface_planes(                                                 \
+#define PERIDEAL_INSTANTIATE(dim)                                                                                          \
+  template std::vector<SurfaceFace<dim>> gather_faces(const std::vector<BoundaryFace<dim>> &, MPI_Comm);                   \
+  template void                          visit_nearby_faces(                                                               \
+                             const NodeCloud<dim> &,                                                                       \
+                             const std::vector<SurfaceFace<dim>> &,                                                        \
+                             const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &, \
+                             const double);                                                                                \
+  template std::vector<std::vector<SurfacePlane<dim>>> find_surface_planes(                                                \
     const NodeCloud<dim> &, const std::vector<SurfaceFace<dim>> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

@@ -116,8 +116,10 @@ namespace perideal
       "the boundary's faces (consistent form only); layer: nodes of the cells at the boundary "
       "take the boundary's value; reference: they take the reference solution's value at the "
       "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary; "
+      "taylor ghosts: bonds missing behind the surface move by Taylor polynomials that meet the boundary's "
+      "values; "
       "automatic: face value for the consistent form, else layer",
-      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror"));
+      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror|taylor ghosts"));
     prm.add_parameter(
       "Traction treatment",
       traction_treatment,
@@ -130,7 +132,8 @@ namespace perideal
       "in 3-D for tractions along the normal; printed line to point: as published, with a third of the force "
       "lost; "
       "automatic: at the faces of the consistent form, else layer",
-      dealii::Patterns::Selection("automatic|layer|missing bonds|line to point|printed line to point"));
+      dealii::Patterns::Selection(
+        "automatic|layer|taylor ghosts|missing bonds|line to point|printed line to point"));
     prm.add_parameter(
       "Layers",
       layers,

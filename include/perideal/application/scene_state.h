@@ -22,6 +22,7 @@
 #include <perideal/operators/missing_bonds.h>
 #include <perideal/operators/null_space.h>
 #include <perideal/operators/relative_damping.h>
+#include <perideal/operators/taylor_ghosts.h>
 #include <perideal/quadrature/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
 
@@ -73,7 +74,9 @@ namespace perideal
     /// The same object as bonds, where the form is consistent.
     std::shared_ptr<ConsistentOperator<dim>> consistent;
     /// The same object as bonds, where tractions act by the bonds that are missing.
-    std::shared_ptr<MissingBonds<dim>>        missing_bonds;
+    std::shared_ptr<MissingBonds<dim>> missing_bonds;
+    /// The same object as bonds, where ghosts stand for the bonds that are missing.
+    std::shared_ptr<TaylorGhosts<dim>>        ghosts;
     std::unique_ptr<ConstrainedOperator<dim>> system;
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;

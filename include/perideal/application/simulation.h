@@ -68,6 +68,7 @@ namespace perideal
     /// @param points of the cells; null: one point each
     std::vector<double> compensation_factors(const GaussPoints<dim> *points = nullptr) const;
     void                add_missing_bonds();
+    void                add_taylor_ghosts();
     void                set_up_solver();
 
     /// Whether prescribed displacements hold nodes, and not images or faces.

@@ -41,11 +41,13 @@ namespace perideal
                                              MPI_Comm                              communicator);
 
   /// Calls for every owned node with the faces that its horizon may reach, nearest centre first.
+  /// @param horizons how many horizons away faces may be
   template <int dim>
   void visit_nearby_faces(
     const NodeCloud<dim>                                                                       &nodes,
     const std::vector<SurfaceFace<dim>>                                                        &faces,
-    const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit);
+    const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &visit,
+    const double horizons = 1.);
 
   /**
    * The planes of the surface near each owned node: a face whose normal differs by more than 30 degrees from

@@ -46,10 +46,10 @@ namespace perideal
   struct LoadParameters
   {
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
-    /// layer | reference | mirror.
+    /// layer | reference | mirror | taylor ghosts.
     std::string displacement_treatment = "automatic";
-    /// How tractions reach the nodes: automatic | layer | missing bonds | line to point | printed line to
-    /// point.
+    /// How tractions reach the nodes: automatic | layer | taylor ghosts | missing bonds | line to point |
+    /// printed line to point.
     std::string traction_treatment = "automatic";
     /// How many layers of cells under a boundary are held, where nodes are.
     unsigned int layers = 1;
@@ -62,6 +62,7 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
+    bool has_taylor_ghosts() const { return traction_treatment == "taylor ghosts"; }
     bool has_missing_bonds() const { return traction_treatment == "missing bonds"; }
     bool has_line_to_point() const
     {
