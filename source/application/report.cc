@@ -105,7 +105,7 @@ namespace perideal
       }
     if (alone)
       result["halo exchange (one rank)"] = 1;
-    if (parameters.loads.displacement_treatment != "mirror")
+    if (parameters.loads.displacement_treatment != "mirror" && !scene.surface_nodes)
       result["fictitious nodes (no mirror)"] = 1;
     if (parameters.model.model == "bond based" ||
         (parameters.model.is_tensor_involved() && !parameters.model.is_consistent()))
@@ -139,6 +139,10 @@ namespace perideal
       out << ", " << parameters.loads.layers << " layers of cells";
     if (scene.mirror->n_fictitious() > 0)
       out << ", " << grouped(scene.mirror->nodes().n_global - scene.nodes->n_global) << " fictitious nodes";
+    if (scene.surface_nodes)
+      out << " (" << grouped(scene.unknowns().n_global - scene.nodes->n_global) << ')';
+    if (parameters.loads.has_transfer())
+      out << ", tractions by " << parameters.loads.traction_treatment;
     if (!scene.null_space.empty())
       out << ", free rigid-body motions removed";
     out << '\n';
@@ -285,6 +289,20 @@ namespace perideal
              " degrees between the outermost";
     }
   } // namespace
+
+  std::string describe_loads(const Json &loads)
+  {
+    std::ostringstream out;
+    const char        *separator = "loads       nodes get of the tractions: ";
+    for (const auto &condition : loads.at("conditions").items())
+      if (condition.value().contains("ratio"))
+        {
+          out << separator << condition.key() << ' '
+              << short_number(100 * condition.value()["ratio"].get<double>()) << " %";
+          separator = ", ";
+        }
+    return out.str().empty() ? "" : out.str() + '\n';
+  }
 
   std::string describe_motion(const Json &summary)
   {

@@ -12,6 +12,8 @@ namespace perideal
     model.resolve(dimension,
                   solver.is_dynamic() || solver.is_relaxation() ? ModelParameters::Use::motion :
                                                                   ModelParameters::Use::statics);
+    resolve_treatment();
+    check_surface_nodes();
     if (solver.is_dynamic())
       check_dynamics();
     else if (solver.is_relaxation())
@@ -122,7 +124,8 @@ namespace perideal
                "automatic | layer with the surface cure or mirrored nodes");
     if (loads.has_line_to_point() && (model.model != "bond based" || dimension != 3))
       complain("the closed form is that of bond-based peridynamics in 3-D",
-               "automatic | layer | missing bonds for this scene");
+               "automatic | layer | missing bonds | transfer for this scene");
+    check_transfer();
   }
 
   void SceneParameters::check_dynamics() const
@@ -193,11 +196,11 @@ namespace perideal
         .given(model.form)
         .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamic relaxation");
     const std::string &treatment = loads.displacement_treatment;
-    if (treatment != "automatic" && treatment != "layer")
-      throw InputError("dynamic relaxation holds the nodes at a boundary")
+    if (treatment != "automatic" && treatment != "layer" && !loads.has_surface_nodes())
+      throw InputError("dynamic relaxation holds nodes")
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)
-        .allowed("automatic | layer in dynamic relaxation");
+        .allowed("automatic | layer | surface nodes in dynamic relaxation");
     check_no_motion();
     for (const std::string &field : field_names())
       if (field == "velocity")

@@ -198,7 +198,11 @@ namespace perideal
   {
     const bool is_last = number == parameters.solver.load_steps;
     if (is_last)
-      compare_at_end(time);
+      {
+        compare_at_end(time);
+        if (external_force.l2_norm() > 0)
+          summary["loads"] = load_resultants(time);
+      }
     const Timings::Scope scope(timings, "output");
     add_output_fields(scene, parameters.field_names(), *field_output);
     field_output->write(number, time);
@@ -255,6 +259,8 @@ namespace perideal
       screen << "solved      " << summary["solver"]["iterations"].back() << " iterations, strain energy "
              << short_number(summary["energy"]["strain"].template get<double>()) << " J\n"
              << describe_boundary_stress(summary["boundary_stress"]);
+    if (status == "done" && summary.contains("loads"))
+      screen << describe_loads(summary["loads"]);
     if (status == "done" && parameters.solver.is_dynamic())
       screen << describe_motion(summary);
     if (parameters.solver.is_relaxation())

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/line_to_point.h>
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/bond_based.h>
+#include <perideal/operators/nodal_springs.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -56,26 +58,55 @@ namespace perideal
   }
 
   template <int dim>
+  void Simulation<dim>::make_transfer()
+  {
+    const Timings::Scope   part(timings, "setup: transfer functions");
+    TransferFunctions<dim> functions(*scene.nodes, scene.surface);
+    if (!parameters.loads.has_printed_transfer())
+      {
+        scene.transfer = std::make_shared<BalancedTransfer<dim>>(std::move(functions));
+        return;
+      }
+    scene.printed_transfer = std::make_shared<PrintedTransfer<dim>>(std::move(functions),
+                                                                    scene.loads,
+                                                                    scene.condition_boundaries,
+                                                                    parameters.loads.transfer_chi,
+                                                                    parameters.loads.transfer_lambda);
+    scene.transfer         = scene.printed_transfer;
+    if (!scene.printed_transfer->springs().empty())
+      scene.bonds = std::make_shared<NodalSprings<dim>>(scene.bonds, scene.printed_transfer->springs());
+  }
+
+  template <int dim>
   void Simulation<dim>::apply_forces(const double time)
   {
+    set_tractions(scene.loads, time, external_force);
+    if (scene.printed_transfer)
+      scene.printed_transfer->add_places(scene.loads, time, external_force);
+    if (scene.ghosts)
+      scene.ghosts->add_known(scene.loads, time, external_force);
+    scene.point_forces.add(scene.loads, time, external_force);
+  }
+
+  template <int dim>
+  void Simulation<dim>::set_tractions(const Loads<dim> &given, const double time, NodalVector &force) const
+  {
     const LoadParameters &loads = parameters.loads;
+    // No external force acts on nodes that are not those of cells.
+    force = 0.;
     if (scene.consistent)
-      compute_nodal_forces(
-        *scene.nodes, *scene.gradient, scene.loads, scene.condition_boundaries, time, external_force);
+      compute_nodal_forces(*scene.nodes, *scene.gradient, given, scene.condition_boundaries, time, force);
     else
       compute_nodal_forces(*scene.nodes,
-                           loads.has_missing_bonds() || loads.has_taylor_ghosts() ||
-                               loads.has_line_to_point() ?
-                             std::vector<BoundaryFace<dim>>() :
-                             scene.faces,
-                           scene.loads,
+                           loads.act_in_depth() ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                           given,
                            scene.condition_boundaries,
                            time,
-                           external_force);
-    if (loads.has_taylor_ghosts())
-      scene.ghosts->add_known(scene.loads, time, external_force);
+                           force);
     if (loads.has_missing_bonds())
-      scene.missing_bonds->add_tractions(scene.loads, time, external_force);
+      scene.missing_bonds->add_tractions(given, time, force);
+    if (scene.transfer)
+      scene.transfer->add_tractions(given, scene.condition_boundaries, time, force);
     if constexpr (dim == 3)
       if (loads.has_line_to_point())
         {
@@ -83,7 +114,7 @@ namespace perideal
           add_line_to_point_forces(
             *scene.nodes,
             scene.surface,
-            scene.loads,
+            given,
             scene.condition_boundaries,
             time,
             [&](const LocalIndex i) -> LineToPoint {
@@ -95,9 +126,8 @@ namespace perideal
                       solid.poisson_ratio};
             },
             loads.traction_treatment == "printed line to point",
-            external_force);
+            force);
         }
-    scene.point_forces.add(scene.loads, time, external_force);
   }
 
   template <int dim>
@@ -151,11 +181,11 @@ namespace perideal
     NodalVector residual;
     scene.system->initialize(residual);
     scene.system->residual(residual, external_force, displacement);
-    // What bonds make of tractions balances up to their quadrature; the tractions themselves must.
-    const double share = parameters.loads.has_missing_bonds() || parameters.loads.has_taylor_ghosts() ||
-                             parameters.loads.has_line_to_point() ?
-                           scene.null_space.share_in(forces_on_body(), communicator) :
-                           scene.null_space.share_in(residual);
+    // What bonds, ghosts and the printed transfer make of tractions balances roughly; the tractions must.
+    const double share =
+      parameters.loads.act_in_depth() && parameters.loads.traction_treatment != "transfer" ?
+        scene.null_space.share_in(forces_on_body(), communicator) :
+        scene.null_space.share_in(residual);
     if (share > 1e-6)
       throw InputError("the loads push the body along a rigid-body motion that nothing holds")
         .parameter("Boundary conditions/Rigid body motions")
@@ -163,16 +193,20 @@ namespace perideal
     displacement = 0.;
   }
 
-  template void                             Simulation<2>::add_missing_bonds();
-  template void                             Simulation<2>::add_taylor_ghosts();
-  template void                             Simulation<2>::apply_forces(const double);
-  template void                             Simulation<2>::apply_loads(const double);
-  template void                             Simulation<2>::check_loads();
+  template void Simulation<2>::add_missing_bonds();
+  template void Simulation<2>::add_taylor_ghosts();
+  template void Simulation<2>::make_transfer();
+  template void Simulation<2>::apply_forces(const double);
+  template void Simulation<2>::set_tractions(const Loads<2> &, const double, NodalVector &) const;
+  template void Simulation<2>::apply_loads(const double);
+  template void Simulation<2>::check_loads();
   template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
   template void                             Simulation<3>::add_missing_bonds();
   template void                             Simulation<3>::add_taylor_ghosts();
+  template void                             Simulation<3>::make_transfer();
   template void                             Simulation<3>::apply_forces(const double);
-  template void                             Simulation<3>::apply_loads(const double);
-  template void                             Simulation<3>::check_loads();
+  template void Simulation<3>::set_tractions(const Loads<3> &, const double, NodalVector &) const;
+  template void Simulation<3>::apply_loads(const double);
+  template void Simulation<3>::check_loads();
   template std::vector<NullSpace<3>::Force> Simulation<3>::forces_on_body() const;
 } // namespace perideal

@@ -50,7 +50,7 @@ namespace perideal
   bool Simulation<dim>::by_nodes() const
   {
     return parameters.loads.displacement_treatment == "layer" ||
-           parameters.loads.displacement_treatment == "reference";
+           parameters.loads.displacement_treatment == "reference" || parameters.loads.has_surface_nodes();
   }
 
   template <int dim>
@@ -76,14 +76,21 @@ namespace perideal
     scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
     prepare_cells(parameters.quadrature, *scene.mesh, *scene.nodes);
     scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
-    if (parameters.loads.has_missing_bonds() || parameters.loads.has_taylor_ghosts() ||
-        parameters.loads.has_line_to_point() || parameters.model.boundary_compensation == "closed form")
+    if (parameters.loads.act_in_depth() || parameters.model.boundary_compensation == "closed form")
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.displacement_treatment == "mirror")
       {
         scene.mirror = std::make_shared<MirrorLayer<dim>>(
           *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
         scene.held = HeldNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
+      }
+    else if (parameters.loads.has_surface_nodes())
+      {
+        scene.surface_nodes = std::make_unique<SurfaceNodes<dim>>(
+          *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
+        scene.mirror = std::make_shared<MirrorLayer<dim>>(scene.unknowns());
+        scene.held   = HeldNodes<dim>(
+          scene.surface_nodes->faces(), scene.loads, scene.condition_boundaries, scene.unknowns().size());
       }
     else
       {
@@ -179,10 +186,12 @@ namespace perideal
       add_missing_bonds();
     if (parameters.loads.has_taylor_ghosts())
       add_taylor_ghosts();
+    if (parameters.loads.has_transfer())
+      make_transfer();
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
-    scene.system =
-      std::make_unique<ConstrainedOperator<dim>>(scene.bonds, scene.mirror, *scene.nodes, scene.held.mask());
+    scene.system         = std::make_unique<ConstrainedOperator<dim>>(
+      scene.bonds, scene.mirror, scene.unknowns(), scene.held.mask());
     scene.areal_forces = create_areal_forces(scene, parameters, solid_of);
   }
 
@@ -203,7 +212,7 @@ namespace perideal
          HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
          scene.held;
     for (const auto &entry : on_faces.entries())
-      motions.hold(!by_nodes() ? entry.point : scene.nodes->position[entry.node], entry.component);
+      motions.hold(!by_nodes() ? entry.point : scene.unknowns().position[entry.node], entry.component);
 
     const auto free = motions.free_motions(communicator);
     if (free.empty())
@@ -215,10 +224,11 @@ namespace perideal
         .hint("hold these motions, or, where the loads balance, set Boundary conditions/Rigid body "
               "motions = remove");
     NodalVector      layout;
-    dealii::IndexSet owned(dim * scene.nodes->n_global);
-    owned.add_range(dim * scene.nodes->first_global, dim * (scene.nodes->first_global + scene.nodes->size()));
+    const auto      &nodes = scene.unknowns();
+    dealii::IndexSet owned(dim * nodes.n_global);
+    owned.add_range(dim * nodes.first_global, dim * (nodes.first_global + nodes.size()));
     layout.reinit(owned, communicator);
-    scene.null_space = NullSpace<dim>(*scene.nodes, motions, free, layout);
+    scene.null_space = NullSpace<dim>(nodes, motions, free, layout);
   }
 
   template <int dim>

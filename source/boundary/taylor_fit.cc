@@ -44,7 +44,7 @@ namespace perideal
   typename TaylorBasis<dim>::Row TaylorBasis<dim>::traction(const dealii::Tensor<1, dim>          &d,
                                                             const dealii::SymmetricTensor<4, dim> &stiffness,
                                                             const dealii::Tensor<1, dim>          &normal,
-                                                            const unsigned int component)
+                                                            const unsigned int                     component)
   {
     // t_c = C_cjmn n_j d_n u_m, of each monomial of u_m its derivative along n.
     Row row = Row::Zero();
@@ -155,15 +155,18 @@ namespace perideal
     std::vector<LocalIndex> result(families.begin(i), families.end(i));
     if (result.size() <= n_wanted)
       return result;
-    const auto distance = [&](const LocalIndex j) { return families.position[i].distance(families.position[j]); };
+    const auto distance = [&](const LocalIndex j) {
+      return families.position[i].distance(families.position[j]);
+    };
     std::vector<double> distances;
     for (const LocalIndex j : result)
       distances.push_back(distance(j));
     std::nth_element(distances.begin(), distances.begin() + (n_wanted - 1), distances.end());
     // All that are as far as the last one, so that lattices keep their symmetry.
     const double largest = distances[n_wanted - 1] * (1. + 1e-6);
-    result.erase(std::remove_if(result.begin(), result.end(), [&](const LocalIndex j) { return distance(j) > largest; }),
-                 result.end());
+    result.erase(
+      std::remove_if(result.begin(), result.end(), [&](const LocalIndex j) { return distance(j) > largest; }),
+      result.end());
     return result;
   }
 
@@ -184,9 +187,9 @@ namespace perideal
       }
     else
       {
-        const double scale     = weight / stiffness.norm();
-        equation.row           = scale * Basis::traction(d, stiffness, value.normal, value.component);
-        equation.weight        = scale * equations.spacing;
+        const double scale = weight / stiffness.norm();
+        equation.row       = scale * Basis::traction(d, stiffness, value.normal, value.component);
+        equation.weight    = scale * equations.spacing;
       }
     (is_own ? equations.exact : equations.weighed).push_back(equation);
   }
@@ -225,7 +228,7 @@ namespace perideal
     result.of_known.setZero(Basis::n_coefficients, result.known.size());
 
     // Coefficients A^+ b + Z y meet the exact rows A for any y; the others choose it.
-    const Eigen::MatrixXd weighed = Equations::matrix(equations.weighed);
+    const Eigen::MatrixXd weighed        = Equations::matrix(equations.weighed);
     const auto            pseudo_inverse = [](const Eigen::MatrixXd &matrix) -> Eigen::MatrixXd {
       Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
       decomposition.setThreshold(rank_tolerance);
@@ -237,13 +240,13 @@ namespace perideal
         Equations::add_product(pseudo_inverse(weighed), equations.weighed, result);
         return result;
       }
-    const Eigen::MatrixXd                    exact = Equations::matrix(equations.exact);
-    Eigen::JacobiSVD<Eigen::MatrixXd>        svd(exact, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::MatrixXd             exact = Equations::matrix(equations.exact);
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(exact, Eigen::ComputeFullU | Eigen::ComputeFullV);
     svd.setThreshold(rank_tolerance);
-    const Eigen::Index    rank = svd.rank();
-    const Eigen::MatrixXd inverse =
-      svd.matrixV().leftCols(rank) *
-      svd.singularValues().head(rank).cwiseInverse().asDiagonal() * svd.matrixU().leftCols(rank).transpose();
+    const Eigen::Index    rank    = svd.rank();
+    const Eigen::MatrixXd inverse = svd.matrixV().leftCols(rank) *
+                                    svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
+                                    svd.matrixU().leftCols(rank).transpose();
     const Eigen::MatrixXd free   = svd.matrixV().rightCols(Basis::n_coefficients - rank);
     const Eigen::MatrixXd chosen = free * pseudo_inverse(weighed * free);
     Equations::add_product(chosen, equations.weighed, result);

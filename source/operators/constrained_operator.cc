@@ -9,7 +9,7 @@ namespace perideal
   template <int dim>
   ConstrainedOperator<dim>::ConstrainedOperator(const std::shared_ptr<const BondOperator<dim>> &bonds,
                                                 const std::shared_ptr<const MirrorLayer<dim>>  &mirror,
-                                                const Nodes<dim>                               &nodes,
+                                                const NodeCloud<dim>                           &nodes,
                                                 const std::vector<std::uint8_t>                &held)
     : bonds(bonds)
     , mirror(mirror)

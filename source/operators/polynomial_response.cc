@@ -23,8 +23,8 @@ namespace perideal
       for (unsigned int p = 0; p < n; ++p)
         for (unsigned int q = p; q < n; ++q)
           {
-            const auto a = Pair<dim>::unrolled_to_component_indices(p);
-            const auto b = Pair<dim>::unrolled_to_component_indices(q);
+            const auto                      a = Pair<dim>::unrolled_to_component_indices(p);
+            const auto                      b = Pair<dim>::unrolled_to_component_indices(q);
             dealii::SymmetricTensor<4, dim> unit;
             unit[a[0]][a[1]][b[0]][b[1]] = unit[b[0]][b[1]][a[0]][a[1]] = 1.;
             result.push_back(unit);
@@ -93,12 +93,12 @@ namespace perideal
           u.local_element(dim * i + d) = value[d];
       }
     bonds.vmult(force, u);
-    return Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>>(force.begin(), dim, families.n_owned());
+    return Eigen::Map<const Eigen::Matrix<double, dim, Eigen::Dynamic>>(
+      force.begin(), dim, families.n_owned());
   }
 
   template <int dim>
-  typename PolynomialResponse<dim>::Map
-  PolynomialResponse<dim>::force_of_gradient(const LocalIndex i) const
+  typename PolynomialResponse<dim>::Map PolynomialResponse<dim>::force_of_gradient(const LocalIndex i) const
   {
     Map result = Map::Zero();
     for (unsigned int c = 0; c < dim; ++c)
@@ -128,18 +128,16 @@ namespace perideal
   }
 
   template <int dim>
-  typename PolynomialResponse<dim>::Map
-  PolynomialResponse<dim>::divergence(const dealii::SymmetricTensor<4, dim> &stiffness,
-                                      const double                           volume,
-                                      const double                           spacing)
+  typename PolynomialResponse<dim>::Map PolynomialResponse<dim>::divergence(
+    const dealii::SymmetricTensor<4, dim> &stiffness, const double volume, const double spacing)
   {
     Map          result = Map::Zero();
     const double factor = volume / (spacing * spacing);
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int p = 0; p < Basis::n_pairs; ++p)
         {
-          const auto   pair = Pair<dim>::unrolled_to_component_indices(p);
-          const auto   l = pair[0], m = pair[1];
+          const auto pair = Pair<dim>::unrolled_to_component_indices(p);
+          const auto l = pair[0], m = pair[1];
           for (unsigned int k = 0; k < dim; ++k)
             result(k, c * Basis::n_monomials + dim + p) =
               factor * (l == m ? stiffness[k][l][c][l] : stiffness[k][l][c][m] + stiffness[k][m][c][l]);
@@ -148,7 +146,8 @@ namespace perideal
   }
 
   template <int dim>
-  std::optional<dealii::SymmetricTensor<4, dim>> PolynomialResponse<dim>::stiffness(const std::vector<std::uint8_t> &counts) const
+  std::optional<dealii::SymmetricTensor<4, dim>>
+  PolynomialResponse<dim>::stiffness(const std::vector<std::uint8_t> &counts) const
   {
     constexpr std::size_t size = Map::SizeAtCompileTime;
     Eigen::VectorXd       sum  = Eigen::VectorXd::Zero(size + 1);

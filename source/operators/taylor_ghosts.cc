@@ -131,9 +131,8 @@ namespace perideal
         const auto polynomial = fit.fit(i, near[i]);
         auto       missing    = response.force_of_gradient(i);
         if (!is_inside[i])
-          missing = response.force(i) + response.divergence(stiffness_of_bonds,
-                                                            families->volume[i],
-                                                            families->spacing[i]);
+          missing = response.force(i) +
+                    response.divergence(stiffness_of_bonds, families->volume[i], families->spacing[i]);
         ghosts.add(missing, polynomial);
         for (const BoundaryFace<dim> *face : loaded[i])
           add_face(*face, polynomial);
@@ -219,10 +218,8 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<typename TaylorGhosts<dim>::FaceTraction>
-  TaylorGhosts<dim>::face_tractions(const NodalVector &displacement,
-                                    const Loads<dim>  &loads,
-                                    const double       time) const
+  std::vector<typename TaylorGhosts<dim>::FaceTraction> TaylorGhosts<dim>::face_tractions(
+    const NodalVector &displacement, const Loads<dim> &loads, const double time) const
   {
     import(displacement);
     auto result = points;

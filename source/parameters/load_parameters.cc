@@ -110,16 +110,25 @@ namespace perideal
   {
     prm.enter_subsection("Boundary conditions");
     prm.add_parameter(
+      "Treatment",
+      treatment,
+      "What the next two are where they are automatic, for bonds between nodes: layer: layer and layer; "
+      "printed: surface nodes and printed transfer, as published for peridynamics with boundary conditions; "
+      "balanced: surface nodes and transfer; automatic: what suits the model",
+      dealii::Patterns::Selection("automatic|layer|printed|balanced"));
+    prm.add_parameter(
       "Displacement treatment",
       displacement_treatment,
       "How prescribed displacements reach the nodes: face value: in the place of interpolated values at "
       "the boundary's faces (consistent form only); layer: nodes of the cells at the boundary "
       "take the boundary's value; reference: they take the reference solution's value at the "
       "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary; "
-      "taylor ghosts: bonds missing behind the surface move by Taylor polynomials that meet the boundary's "
-      "values; "
-      "automatic: face value for the consistent form, else layer",
-      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror|taylor ghosts"));
+      "surface nodes: a node of its own in the middle of each face, with the volume of its cell once more; "
+      "taylor ghosts: the far ends of bonds that are missing behind the surface move by Taylor polynomials "
+      "that "
+      "meet the boundary's values (with the same treatment of tractions); "
+      "automatic: face value for the consistent form, taylor ghosts with such tractions, else layer",
+      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror|surface nodes|taylor ghosts"));
     prm.add_parameter(
       "Traction treatment",
       traction_treatment,
@@ -131,9 +140,20 @@ namespace perideal
       "bond-based peridynamics "
       "in 3-D for tractions along the normal; printed line to point: as published, with a third of the force "
       "lost; "
+      "transfer: over the nodes within their horizons of a face, which get its force and moment; "
+      "printed transfer: as published, with external forces 39 % too large; "
       "automatic: at the faces of the consistent form, else layer",
-      dealii::Patterns::Selection(
-        "automatic|layer|taylor ghosts|missing bonds|line to point|printed line to point"));
+      dealii::Patterns::Selection("automatic|layer|taylor ghosts|missing bonds|line to point|printed line to "
+                                  "point|transfer|printed transfer"));
+    prm.add_parameter("Transfer chi",
+                      transfer_chi,
+                      "Of the printed transfer: its factor is chi/(chi-1), not 0 or 1 [-]",
+                      dealii::Patterns::Double());
+    prm.add_parameter("Transfer lambda",
+                      transfer_lambda,
+                      "Of the printed transfer: what the places of held faces do, in linear statics "
+                      "[N/m^11]; 0: nothing. The unit makes results depend on the unit of length",
+                      dealii::Patterns::Double());
     prm.add_parameter(
       "Layers",
       layers,

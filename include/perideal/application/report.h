@@ -76,6 +76,10 @@ namespace perideal
     bool          printed = false;
   };
 
+  /// What of the tractions arrives at the nodes, on one line; empty where there are none.
+  /// @param loads as in summary.json
+  std::string describe_loads(const nlohmann::ordered_json &loads);
+
   /// Energies, damage and cracks at the end of dynamics, and a warning where the energy does not
   /// balance. @param summary as in summary.json
   std::string describe_motion(const nlohmann::ordered_json &summary);

@@ -114,6 +114,13 @@ namespace perideal
     /// @throws InputError on choices that do not go together.
     void resolve();
 
+    /// Puts what Treatment means in the place of "automatic".
+    /// @throws InputError for the consistent form.
+    void resolve_treatment();
+    /// @throws InputError on what does not go with nodes on the surface, or with transfer functions.
+    void check_surface_nodes() const;
+    void check_transfer() const;
+
     /// @throws InputError on what does not go with Gauss points, or with compensation factors.
     void check_quadrature() const;
     /// Chooses the treatment of tractions.

@@ -7,6 +7,8 @@
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/boundary/point_forces.h>
+#include <perideal/boundary/printed_transfer.h>
+#include <perideal/boundary/surface_nodes.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/no_fail_zones.h>
@@ -62,7 +64,12 @@ namespace perideal
     std::shared_ptr<FaceValues<dim>>         face_values;
     std::shared_ptr<MirrorLayer<dim>>        mirror;
     PointForces<dim>                         point_forces;
-    std::shared_ptr<Families<dim>>           families;
+    /// Where prescribed displacements have nodes of their own.
+    std::unique_ptr<SurfaceNodes<dim>> surface_nodes;
+    /// Where tractions act through transfer functions; the second is the same object, where as printed.
+    std::shared_ptr<const TractionTransfer<dim>> transfer;
+    std::shared_ptr<const PrintedTransfer<dim>>  printed_transfer;
+    std::shared_ptr<Families<dim>>               families;
 
     /// What the model made of the bonds; the consistent form has no such.
     std::unique_ptr<LinearModel<dim>>  model;
@@ -95,6 +102,12 @@ namespace perideal
     /// Where the scene has them.
     std::unique_ptr<ContactForce<dim>>    contact;
     std::unique_ptr<RelativeDamping<dim>> relative_damping;
+
+    /// The nodes whose displacements are the unknowns, those of the cells first.
+    const NodeCloud<dim> &unknowns() const
+    {
+      return surface_nodes ? surface_nodes->nodes() : static_cast<const NodeCloud<dim> &>(*nodes);
+    }
 
     /// Displacement of the nodes after the last step, rigid-body motions removed; in dynamics their velocity.
     NodalField<dim> displacement, velocity;

@@ -69,7 +69,9 @@ namespace perideal
     std::vector<double> compensation_factors(const GaussPoints<dim> *points = nullptr) const;
     void                add_missing_bonds();
     void                add_taylor_ghosts();
-    void                set_up_solver();
+    /// Transfer functions, where the scene has them. Collective.
+    void make_transfer();
+    void set_up_solver();
 
     /// Whether prescribed displacements hold nodes, and not images or faces.
     bool by_nodes() const;
@@ -90,7 +92,12 @@ namespace perideal
     void apply_loads(const double time);
     /// External forces by tractions, body forces and point loads. Collective.
     void apply_forces(const double time);
-    void check_loads();
+    /// Those by the tractions and body forces of some loads on the conditions of the scene, overwritten.
+    /// Collective.
+    void set_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const;
+    /// Resultants of the loads and of what the nodes get of them, for summary.json. Collective.
+    nlohmann::ordered_json load_resultants(const double time) const;
+    void                   check_loads();
     /// Tractions of faces, body forces and point loads of this rank as forces at their places, at t = 1.
     std::vector<typename NullSpace<dim>::Force> forces_on_body() const;
     void                                        step(const unsigned int number);

@@ -98,7 +98,10 @@ namespace perideal
 
     std::vector<SurfaceValue<dim>> values_at(const SurfaceFace<dim> &face) const;
     std::vector<LocalIndex>        nearest_members(const LocalIndex i) const;
-    void add_value(const LocalIndex i, const SurfaceValue<dim> &value, const bool is_own, Equations &equations) const;
+    void                           add_value(const LocalIndex         i,
+                                             const SurfaceValue<dim> &value,
+                                             const bool               is_own,
+                                             Equations               &equations) const;
 
     const Families<dim>                                        &families;
     const Loads<dim>                                           &loads;

@@ -19,10 +19,11 @@ namespace perideal
   class ConstrainedOperator
   {
   public:
+    /// @param nodes those whose displacements are the unknowns, the real ones of the mirror
     /// @param held by dim*node + component, 1 where the displacement is prescribed
     ConstrainedOperator(const std::shared_ptr<const BondOperator<dim>> &bonds,
                         const std::shared_ptr<const MirrorLayer<dim>>  &mirror,
-                        const Nodes<dim>                               &nodes,
+                        const NodeCloud<dim>                           &nodes,
                         const std::vector<std::uint8_t>                &held);
 
     /// The homogeneous part, for linear solvers.

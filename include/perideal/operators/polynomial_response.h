@@ -43,9 +43,8 @@ namespace perideal
     Map force_of_gradient(const LocalIndex i) const;
 
     /// V div(C:grad T) [N] by the coefficients of T.
-    static Map divergence(const dealii::SymmetricTensor<4, dim> &stiffness,
-                          const double                           volume,
-                          const double                           spacing);
+    static Map
+    divergence(const dealii::SymmetricTensor<4, dim> &stiffness, const double volume, const double spacing);
 
     /// C [Pa] of the families of some nodes of one material, the mean over all ranks; nothing where there are
     /// no such nodes. Collective.

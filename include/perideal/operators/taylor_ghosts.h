@@ -97,7 +97,7 @@ namespace perideal
     {
       struct Row
       {
-        LocalIndex node;
+        LocalIndex  node;
         std::size_t first_node, first_known;
       };
       std::vector<Row>                    rows;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/report.h>
+#include <perideal/application/scene_parameters.h>
+
+// SceneParameters: treatments of boundary conditions that go together, and with the scene.
+
+namespace perideal
+{
+  void SceneParameters::resolve_treatment()
+  {
+    if (loads.treatment == "automatic")
+      return;
+    if (model.is_consistent())
+      throw InputError("the consistent form takes its boundary conditions at faces")
+        .parameter("Boundary conditions/Treatment")
+        .given(loads.treatment)
+        .allowed("automatic for this form; or set Material/Form to another one");
+    const bool layer = loads.treatment == "layer";
+    if (loads.displacement_treatment == "automatic")
+      loads.displacement_treatment = layer ? "layer" : "surface nodes";
+    if (loads.traction_treatment == "automatic")
+      loads.traction_treatment = layer                        ? "layer" :
+                                 loads.treatment == "printed" ? "printed transfer" :
+                                                                "transfer";
+  }
+
+  void SceneParameters::check_surface_nodes() const
+  {
+    if (!loads.has_surface_nodes())
+      return;
+    const auto complain = [this](const std::string &problem, const std::string &allowed) {
+      throw InputError(problem)
+        .parameter("Boundary conditions/Displacement treatment")
+        .given(loads.displacement_treatment)
+        .allowed(allowed);
+    };
+    const std::string others = "automatic | layer | reference | mirror";
+    if (solver.is_dynamic())
+      complain("nodes on the surface have no mass", "automatic | layer in dynamics");
+    if (model.is_consistent())
+      complain("nodes on the surface have no cells, which the consistent form needs",
+               "automatic | face value | layer | reference for the consistent form");
+    if (quadrature.has_gauss_points() || quadrature.needs_cells())
+      complain("nodes on the surface have no cells, of which Quadrature/Scheme = " + quadrature.scheme +
+                 " counts the parts",
+               others + "; or Quadrature/Scheme = one point | cubic cell | partial volume");
+    if (model.compensates())
+      complain("bonds are stiffened for what they lack at the surface, where these nodes are",
+               others + "; or Material/Boundary compensation = none");
+    if (model.has_surface_cure())
+      complain("the surface cure has no gradient at nodes on the surface",
+               others + "; or another Material/Form");
+    if (loads.has_missing_bonds())
+      complain("bonds are missing behind a surface without nodes", others + " with missing bonds");
+    if (can_break(*this) || !precracks.cracks.empty())
+      complain("what breaks is told by the nodes of cells", "automatic | layer where bonds break or are cut");
+    if (!areal_forces.points.empty())
+      complain("areal force densities are sums over nodes of cells", others + " with Areal force densities");
+  }
+
+  void SceneParameters::check_transfer() const
+  {
+    if (!loads.has_printed_transfer())
+      return;
+    if (loads.transfer_chi == 0 || loads.transfer_chi == 1)
+      throw InputError("the factor chi/(chi-1) vanishes or is infinite")
+        .parameter("Boundary conditions/Transfer chi")
+        .allowed("numbers other than 0 and 1");
+    if (loads.transfer_lambda != 0 && solver.name != "static")
+      throw InputError("what the places of held faces do is known in linear statics")
+        .parameter("Boundary conditions/Transfer lambda")
+        .allowed("0 for Solver/Name = " + solver.name);
+  }
+} // namespace perideal

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/balanced_transfer.h>
+#include <perideal/boundary/face_tractions.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    using Matrix = dealii::SymmetricTensor<2, 3>;
+
+    /// Pseudo-inverse; eigenvalues that rounding makes of zero are zero.
+    dealii::Tensor<2, 3> invert(const Matrix &inertia, const double scale)
+    {
+      dealii::Tensor<2, 3> result;
+      for (const auto &[value, vector] : dealii::eigenvectors(inertia))
+        if (value > 1e-10 * scale)
+          result += outer_product(vector, vector) / value;
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  BalancedTransfer<dim>::BalancedTransfer(TransferFunctions<dim> functions)
+    : functions(std::move(functions))
+  {
+    const auto &faces = this->functions.faces();
+    // First and second moments of the nodes about the centroid of the face.
+    constexpr unsigned int size = 3 + Matrix::n_independent_components;
+    std::vector<double>    moments(size * faces.size(), 0.);
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      for (const auto &[i, q] : this->functions.entries()[k])
+        {
+          const double weight = q * this->functions.volumes()[i];
+          const auto   arm    = in_space<dim>(this->functions.positions()[i] - faces[k].centre);
+          for (unsigned int d = 0; d < 3; ++d)
+            moments[size * k + d] += weight * arm[d];
+          for (unsigned int m = 0; m < Matrix::n_independent_components; ++m)
+            {
+              const auto rows = Matrix::unrolled_to_component_indices(m);
+              moments[size * k + 3 + m] += weight * arm[rows[0]] * arm[rows[1]];
+            }
+        }
+    dealii::Utilities::MPI::sum(moments, this->functions.communicator(), moments);
+
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      {
+        const double total = this->functions.node_sums()[k];
+        Carriers     result;
+        for (unsigned int d = 0; d < 3; ++d)
+          result.centroid[d] = moments[size * k + d] / total;
+        Matrix spread;
+        for (unsigned int m = 0; m < Matrix::n_independent_components; ++m)
+          spread[Matrix::unrolled_to_component_indices(m)] = moments[size * k + 3 + m];
+        const double scale = trace(spread);
+        for (unsigned int m = 0; m < Matrix::n_independent_components; ++m)
+          {
+            const auto rows = Matrix::unrolled_to_component_indices(m);
+            spread[rows] -= total * result.centroid[rows[0]] * result.centroid[rows[1]];
+          }
+        result.inverse_inertia = invert(trace(spread) * dealii::unit_symmetric_tensor<3>() - spread, scale);
+        carriers.push_back(result);
+      }
+  }
+
+  template <int dim>
+  void
+  BalancedTransfer<dim>::add_tractions(const Loads<dim>                                           &loads,
+                                       const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                                       const double                                                time,
+                                       NodalVector &force) const
+  {
+    const auto &faces = functions.faces();
+    for (std::size_t c = 0; c < loads.conditions.size(); ++c)
+      if (loads.conditions[c].prescribes_traction())
+        for (std::size_t k = 0; k < faces.size(); ++k)
+          if (!functions.entries()[k].empty() &&
+              std::count(boundaries[c].begin(), boundaries[c].end(), faces[k].boundary) > 0)
+            {
+              const auto load = integrate_traction<dim>(loads.conditions[c], faces[k], time, faces[k].centre);
+              const auto pull = load.force / functions.node_sums()[k];
+              const auto left =
+                load.moment - dealii::cross_product_3d(carriers[k].centroid, in_space(load.force));
+              const auto turn = carriers[k].inverse_inertia * left;
+              for (const auto &[i, q] : functions.entries()[k])
+                {
+                  const auto arm =
+                    in_space<dim>(functions.positions()[i] - faces[k].centre) - carriers[k].centroid;
+                  const auto turned = dealii::cross_product_3d(turn, arm);
+                  for (int d = 0; d < dim; ++d)
+                    force.local_element(dim * i + d) += q * functions.volumes()[i] * (pull[d] + turned[d]);
+                }
+            }
+  }
+
+  template class BalancedTransfer<2>;
+  template class BalancedTransfer<3>;
+} // namespace perideal

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/surface_nodes.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  SurfaceNodes<dim>::SurfaceNodes(const NodeCloud<dim>                                       &real,
+                                  const std::vector<BoundaryFace<dim>>                       &faces,
+                                  const Loads<dim>                                           &loads,
+                                  const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
+    : all(real)
+  {
+    Assert(!real.has_cells && real.shape.empty(), dealii::ExcNotImplemented());
+    const auto is_held = [&](const dealii::types::boundary_id id) {
+      for (std::size_t k = 0; k < loads.conditions.size(); ++k)
+        if (loads.conditions[k].prescribes_displacement() &&
+            std::count(boundaries[k].begin(), boundaries[k].end(), id) > 0)
+          return true;
+      return false;
+    };
+    for (const BoundaryFace<dim> &face : faces)
+      if (is_held(face.boundary))
+        {
+          held_faces.push_back(face);
+          held_faces.back().node = all.size();
+          all.position.push_back(face.centre);
+          all.volume.push_back(real.volume[face.node]);
+          all.spacing.push_back(real.spacing[face.node]);
+          if (!all.cell_radius.empty())
+            all.cell_radius.push_back(real.cell_radius[face.node]);
+          all.horizon.push_back(real.horizon[face.node]);
+          all.material.push_back(real.material[face.node]);
+        }
+    all.number();
+  }
+
+  template class SurfaceNodes<2>;
+  template class SurfaceNodes<3>;
+} // namespace perideal
