@@ -275,8 +275,13 @@ namespace perideal
           scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
         scene.auxiliary_fem->assemble(scene.solids, 0.);
       }
-    scene.linear_solver = create_linear_solver(
-      parameters.solver, choice, *scene.system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+    scene.linear_solver                 = create_linear_solver(parameters.solver,
+                                               choice,
+                                               *scene.system,
+                                               scene.null_space,
+                                               *scene.nodes,
+                                               scene.auxiliary_fem.get(),
+                                               scene.surface_nodes.get());
     summary["solver"]["name"]           = scene.linear_solver->name();
     summary["solver"]["preconditioner"] = choice.preconditioner;
     summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;

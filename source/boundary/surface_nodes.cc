@@ -23,6 +23,7 @@ namespace perideal
     for (const BoundaryFace<dim> &face : faces)
       if (is_held(face.boundary))
         {
+          nodes_of_cells.push_back(face.node);
           held_faces.push_back(face);
           held_faces.back().node = all.size();
           all.position.push_back(face.centre);

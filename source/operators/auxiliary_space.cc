@@ -44,7 +44,8 @@ namespace perideal
   template <int dim>
   AuxiliarySpace<dim>::AuxiliarySpace(const ConstrainedOperator<dim> &system,
                                       const Nodes<dim>               &nodes,
-                                      const ElasticFem<dim>          &fem)
+                                      const ElasticFem<dim>          &fem,
+                                      const SurfaceNodes<dim>        *surface)
     : system(system)
     , smoother(system)
     , multigrid(fem, !fem.is_on_mesh_itself())
@@ -53,21 +54,64 @@ namespace perideal
     // cells. Few Lanczos steps do, for iterations hardly depend on it.
     smoother.set_damping(1.3 / estimate_largest_eigenvalue(system, smoother, 5));
 
-    dealii::Point<dim> middle;
-    for (int d = 0; d < dim; ++d)
-      middle[d] = 0.5;
-    for (unsigned int part = 0; part <= n_vertices; ++part)
-      for (unsigned int v = 0; v < n_vertices; ++v)
-        weights[part][v] = dealii::GeometryInfo<dim>::d_linear_shape_function(
-          part < n_vertices ? dealii::GeometryInfo<dim>::child_to_cell_coordinates(middle, part) : middle, v);
-
+    set_weights();
     coarse_source.reinit(fem.solution());
     coarse_solution.reinit(fem.solution());
     find_places(nodes, fem);
+    if (surface != nullptr)
+      add_places(*surface, fem.mesh(), nodes);
     find_dependences(fem);
     for (unsigned int i = 0; i < coarse_source.locally_owned_size(); ++i)
       if (fem.constraints().is_constrained(coarse_source.get_partitioner()->local_to_global(i)))
         constrained.push_back(i);
+  }
+
+  template <int dim>
+  void AuxiliarySpace<dim>::set_weights()
+  {
+    using Geometry = dealii::GeometryInfo<dim>;
+    for (unsigned int place = 0; place < n_middles; ++place)
+      {
+        dealii::Point<dim> middle;
+        for (int d = 0; d < dim; ++d)
+          middle[d] = 0.5;
+        if (place > 0)
+          middle[Geometry::unit_normal_direction[place - 1]] =
+            Geometry::unit_normal_orientation[place - 1] > 0 ? 1. : 0.;
+        for (unsigned int part = 0; part <= n_vertices; ++part)
+          for (unsigned int v = 0; v < n_vertices; ++v)
+            weights[part * n_middles + place][v] = Geometry::d_linear_shape_function(
+              part < n_vertices ? Geometry::child_to_cell_coordinates(middle, part) : middle, v);
+      }
+  }
+
+  template <int dim>
+  void AuxiliarySpace<dim>::add_places(const SurfaceNodes<dim> &surface,
+                                       const Mesh<dim>         &mesh,
+                                       const Nodes<dim>        &nodes)
+  {
+    std::vector<std::vector<std::size_t>> faces_of(nodes.size());
+    for (std::size_t k = 0; k < surface.faces().size(); ++k)
+      faces_of[surface.cell_nodes()[k]].push_back(k);
+    places.resize(surface.nodes().size());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        {
+          const LocalIndex i = nodes.node_of_cell[cell->active_cell_index()];
+          for (const std::size_t k : faces_of[i])
+            {
+              unsigned int nearest  = 0;
+              const auto   distance = [&](const unsigned int f) {
+                return cell->face(f)->center().distance(surface.faces()[k].centre);
+              };
+              for (const unsigned int f : cell->face_indices())
+                if (distance(f) < distance(nearest))
+                  nearest = f;
+              Place &place = places[surface.faces()[k].node];
+              place        = places[i];
+              place.part += 1 + nearest;
+            }
+        }
   }
 
   template <int dim>
@@ -84,7 +128,7 @@ namespace perideal
           const typename dealii::DoFHandler<dim>::cell_iterator with_unknowns(
             &elements, element.cell->level(), element.cell->index(), &unknowns);
           Place &place = places[nodes.node_of_cell[cell->active_cell_index()]];
-          place.part   = element.part;
+          place.part   = element.part * n_middles;
           for (const unsigned int v : with_unknowns->vertex_indices())
             {
               const auto first = with_unknowns->vertex_dof_index(v, 0);

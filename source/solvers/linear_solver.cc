@@ -325,7 +325,8 @@ namespace perideal
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,
-                                                          const ElasticFem<dim>          *fem)
+                                                          const ElasticFem<dim>          *fem,
+                                                          const SurfaceNodes<dim>        *surface)
   {
     if (parameters.assembles())
       {
@@ -356,7 +357,7 @@ namespace perideal
     if (choice.preconditioner == "block jacobi")
       return krylov(std::make_unique<BlockJacobi<dim>>(system));
     Assert(fem != nullptr, dealii::ExcInternalError());
-    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem));
+    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem, surface));
   }
 
   template class LinearSolver<2>;
@@ -366,11 +367,13 @@ namespace perideal
                                                                  const ConstrainedOperator<2> &,
                                                                  const NullSpace<2> &,
                                                                  const Nodes<2> &,
-                                                                 const ElasticFem<2> *);
+                                                                 const ElasticFem<2> *,
+                                                                 const SurfaceNodes<2> *);
   template std::unique_ptr<LinearSolver<3>> create_linear_solver(const SolverParameters &,
                                                                  const PreconditionerChoice &,
                                                                  const ConstrainedOperator<3> &,
                                                                  const NullSpace<3> &,
                                                                  const Nodes<3> &,
-                                                                 const ElasticFem<3> *);
+                                                                 const ElasticFem<3> *,
+                                                                 const SurfaceNodes<3> *);
 } // namespace perideal

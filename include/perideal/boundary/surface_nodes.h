@@ -30,9 +30,13 @@ namespace perideal
     /// The faces that conditions hold, each with its own node.
     const std::vector<BoundaryFace<dim>> &faces() const { return held_faces; }
 
+    /// The nodes of their cells.
+    const std::vector<LocalIndex> &cell_nodes() const { return nodes_of_cells; }
+
   private:
     NodeCloud<dim>                 all;
     std::vector<BoundaryFace<dim>> held_faces;
+    std::vector<LocalIndex>        nodes_of_cells;
   };
 } // namespace perideal
 

@@ -2,6 +2,7 @@
 #ifndef perideal_solvers_linear_solver_h
 #define perideal_solvers_linear_solver_h
 
+#include <perideal/boundary/surface_nodes.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/null_space.h>
@@ -93,13 +94,15 @@ namespace perideal
   /// @param choice as of choose_preconditioner()
   /// @param fem the assembled Q1 problem on the chosen mesh where the auxiliary space needs it,
   ///   else a null pointer
+  /// @param surface the system's nodes on faces, or a null pointer where it has none
   template <int dim>
   std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
                                                           const PreconditionerChoice     &choice,
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,
-                                                          const ElasticFem<dim>          *fem);
+                                                          const ElasticFem<dim>          *fem,
+                                                          const SurfaceNodes<dim>        *surface = nullptr);
 } // namespace perideal
 
 #endif

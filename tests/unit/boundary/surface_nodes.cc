@@ -3,6 +3,7 @@
 #include <perideal/boundary/surface_nodes.h>
 
 #include "bodies.h"
+#include "testing.h"
 
 using namespace perideal;
 
