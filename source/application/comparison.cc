@@ -10,8 +10,12 @@ namespace perideal
   using Json = nlohmann::ordered_json;
 
   template <int dim>
-  NodalField<dim> solve_fem(
-    const SceneState<dim> &scene, const double time, const double tolerance, Timings &timings, Json &report)
+  NodalField<dim> solve_fem(const SceneState<dim>       &scene,
+                            const SolidsByMaterial<dim> &solids,
+                            const double                 time,
+                            const double                 tolerance,
+                            Timings                     &timings,
+                            Json                        &report)
   {
     NodalField<dim> result(scene.nodes->size());
     {
@@ -19,7 +23,7 @@ namespace perideal
       ElasticFem<dim>      fem(*scene.mesh, scene.loads);
       {
         const Timings::Scope part(timings, "fem: assembly");
-        fem.assemble(scene.solids, time);
+        fem.assemble(solids, time);
       }
       {
         const Timings::Scope part(timings, "fem: multigrid");
@@ -171,8 +175,12 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template NodalField<dim> solve_fem(                                                                        \
-    const SceneState<dim> &, const double, const double, Timings &, nlohmann::ordered_json &);               \
+  template NodalField<dim> solve_fem(const SceneState<dim> &,                                                \
+                                     const SolidsByMaterial<dim> &,                                          \
+                                     const double,                                                           \
+                                     const double,                                                           \
+                                     Timings &,                                                              \
+                                     nlohmann::ordered_json &);                                              \
   template NodalField<dim> solve_reference(const SceneState<dim> &,                                          \
                                            const Mesh<dim> &,                                                \
                                            const SolidsByMaterial<dim> &,                                    \

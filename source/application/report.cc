@@ -24,6 +24,27 @@ namespace perideal
     }
   } // namespace
 
+  namespace
+  {
+    /// C by pairs of indices, ordered as in dealii::SymmetricTensor.
+    template <int dim>
+    double
+    entry_of(const dealii::SymmetricTensor<4, dim> &stiffness, const unsigned int p, const unsigned int q)
+    {
+      using Pair   = dealii::SymmetricTensor<2, dim>;
+      const auto a = Pair::unrolled_to_component_indices(p), b = Pair::unrolled_to_component_indices(q);
+      return stiffness[a[0]][a[1]][b[0]][b[1]];
+    }
+
+    template <int dim>
+    std::string describe_stiffness(const dealii::SymmetricTensor<4, dim> &stiffness)
+    {
+      return "C_xxxx " + short_number(entry_of<dim>(stiffness, 0, 0)) + ", C_xxyy " +
+             short_number(entry_of<dim>(stiffness, 0, 1)) + ", C_xyxy " +
+             short_number(entry_of<dim>(stiffness, dim, dim)) + " Pa";
+    }
+  } // namespace
+
   template <int dim>
   Json describe_discretisation(const SceneParameters &parameters, const SceneState<dim> &scene)
   {
@@ -54,6 +75,18 @@ namespace perideal
     result["families"]   = {{"fallback", scene.family_counts.fallback},
                             {"singular", scene.family_counts.singular},
                             {"indefinite", scene.family_counts.indefinite}};
+    if (scene.family_stiffness)
+      {
+        Json rows;
+        for (unsigned int p = 0; p < dim * (dim + 1) / 2; ++p)
+          {
+            Json row;
+            for (unsigned int q = 0; q < dim * (dim + 1) / 2; ++q)
+              row.push_back(entry_of(*scene.family_stiffness, p, q));
+            rows.push_back(row);
+          }
+        result["families"]["stiffness"] = rows;
+      }
     return result;
   }
 
@@ -134,6 +167,8 @@ namespace perideal
     out << "families    " << grouped(counts.fallback) << " with fallback weights, "
         << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
         << " had negative deviatoric weights\n";
+    if (scene.family_stiffness)
+      out << "stiffness   " << describe_stiffness<dim>(*scene.family_stiffness) << " by whole families\n";
     out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
     if (parameters.loads.layers > 1)
       out << ", " << parameters.loads.layers << " layers of cells";
@@ -143,6 +178,8 @@ namespace perideal
       out << " (" << grouped(scene.unknowns().n_global - scene.nodes->n_global) << ')';
     if (parameters.loads.has_transfer())
       out << ", tractions by " << parameters.loads.traction_treatment;
+    if (scene.ghosts)
+      out << ", tractions as well";
     if (!scene.null_space.empty())
       out << ", free rigid-body motions removed";
     out << '\n';

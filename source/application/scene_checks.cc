@@ -34,7 +34,7 @@ namespace perideal
     const bool   consistent = model.is_consistent();
     std::string &treatment  = loads.displacement_treatment;
     if (treatment == "automatic")
-      treatment = consistent ? "face value" : "layer";
+      treatment = consistent ? "face value" : loads.has_taylor_ghosts() ? "taylor ghosts" : "layer";
     if (treatment == "face value" && !consistent)
       throw InputError("only the consistent form reads values at faces")
         .parameter("Boundary conditions/Displacement treatment")
@@ -73,6 +73,7 @@ namespace perideal
         .allowed("automatic | face value | layer | reference for the consistent form");
     check_quadrature();
     resolve_tractions();
+    check_ghosts();
   }
 
   void SceneParameters::check_quadrature() const
@@ -117,7 +118,7 @@ namespace perideal
       complain("the consistent form takes tractions at faces", "automatic for this form");
     if (treatment == "automatic")
       treatment = consistent ? "face" : "layer";
-    if (loads.has_missing_bonds() && (solver.is_dynamic() || solver.is_relaxation()))
+    if (loads.has_missing_bonds() && solver.name != "static")
       complain("what missing bonds do follows from linear statics", "automatic | layer for this solver");
     if (loads.has_missing_bonds() && (model.has_surface_cure() || loads.displacement_treatment == "mirror"))
       complain("the surface has its missing bonds by other means",

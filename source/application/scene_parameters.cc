@@ -24,6 +24,14 @@ namespace perideal
                       "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself, -1 on the "
                       "mesh with one of its Mesh/Refinements less, for bodies that leave no room for more",
                       Integer(-1, 4));
+    prm.add_parameter("Stiffness",
+                      stiffness,
+                      "Of what the finite elements are made: material: of the material; families: of a solid "
+                      "as stiff as whole "
+                      "families are by their quadrature, which shows what boundary conditions alone are off "
+                      "by (one material, "
+                      "regular meshes)",
+                      Selection("material|families"));
     prm.add_parameter(
       "Reference mesh",
       reference_mesh,

@@ -49,8 +49,8 @@ namespace perideal
         return;
       }
     find_free_motions();
-    prepare_comparisons();
     weigh_bonds();
+    prepare_comparisons();
     set_up_solver();
     announce();
     check_loads();
@@ -163,12 +163,18 @@ namespace perideal
         from_faces.force  = scene.face_values->sum_by_condition(forces, communicator);
         from_faces.work   = scene.face_values->work(forces, communicator);
       }
-    const double strain_energy = 0.5 * (free_force * displacement + from_faces.work);
+    double strain_energy = 0.5 * (free_force * displacement + from_faces.work);
     free_force -= external_force;
-    const auto   held_reactions = scene.held.sum_by_condition(free_force, communicator);
-    const double external_work =
-      0.5 * (external_force * displacement + scene.held.work(free_force, displacement, communicator) +
-             from_faces.work);
+    const auto held_reactions = scene.held.sum_by_condition(free_force, communicator);
+    double     external_work  = 0.5 * (external_force * displacement +
+                                  scene.held.work(free_force, displacement, communicator) + from_faces.work);
+    if (scene.ghosts)
+      {
+        const GhostBalance balance = balance_of_ghosts(time);
+        strain_energy              = balance.strain_energy;
+        external_work              = balance.external_work;
+        from_faces.force           = balance.reactions;
+      }
 
     history->add("step", number);
     history->add("time [s]", time);
@@ -214,7 +220,8 @@ namespace perideal
   void Simulation<dim>::compare_at_end(const double time)
   {
     if (parameters.comparison.fem)
-      scene.comparisons["fem"] = solve_fem(scene, time, parameters.solver.tolerance, timings, summary["fem"]);
+      scene.comparisons["fem"] = solve_fem(
+        scene, compared_solids_on(*scene.mesh), time, parameters.solver.tolerance, timings, summary["fem"]);
     const auto &exact = parameters.comparison.exact;
     if (!(exact[0].empty() && exact[1].empty() && exact[2].empty()))
       scene.comparisons["exact"] = evaluate_exact(scene, parameters.comparison, time);

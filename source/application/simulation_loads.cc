@@ -36,28 +36,6 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::add_taylor_ghosts()
-  {
-    // Between materials a uniform strain needs forces that no missing bond stands for.
-    if (scene.mesh->material_ids.size() > 1)
-      throw InputError("what missing bonds do is known in bodies of one material")
-        .parameter("Boundary conditions/Traction treatment")
-        .given(parameters.loads.traction_treatment)
-        .allowed("automatic | layer for several cell groups");
-    const Timings::Scope part(timings, "setup: ghosts");
-    scene.ghosts =
-      std::make_shared<TaylorGhosts<dim>>(scene.bonds,
-                                          scene.families,
-                                          *scene.nodes,
-                                          scene.faces,
-                                          scene.surface,
-                                          scene.loads,
-                                          scene.condition_boundaries,
-                                          solid_of_model()(*scene.mesh->material_ids.begin()).stiffness());
-    scene.bonds = scene.ghosts;
-  }
-
-  template <int dim>
   void Simulation<dim>::make_transfer()
   {
     const Timings::Scope   part(timings, "setup: transfer functions");
@@ -194,7 +172,6 @@ namespace perideal
   }
 
   template void Simulation<2>::add_missing_bonds();
-  template void Simulation<2>::add_taylor_ghosts();
   template void Simulation<2>::make_transfer();
   template void Simulation<2>::apply_forces(const double);
   template void Simulation<2>::set_tractions(const Loads<2> &, const double, NodalVector &) const;
@@ -202,7 +179,6 @@ namespace perideal
   template void Simulation<2>::check_loads();
   template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
   template void                             Simulation<3>::add_missing_bonds();
-  template void                             Simulation<3>::add_taylor_ghosts();
   template void                             Simulation<3>::make_transfer();
   template void                             Simulation<3>::apply_forces(const double);
   template void Simulation<3>::set_tractions(const Loads<3> &, const double, NodalVector &) const;

@@ -47,8 +47,8 @@ namespace perideal
   {
     prepare_cracks();
     find_free_motions();
-    prepare_comparisons();
     weigh_bonds();
+    prepare_comparisons();
     {
       const Timings::Scope scope(timings, "setup");
       scene.force = create_bond_force<dim>(*scene.weights);

@@ -80,11 +80,33 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  Resultant<dim> Simulation<dim>::met_by_ghosts(const std::size_t condition, const double time) const
+  {
+    Resultant<dim> result;
+    for (const auto &seen : scene.ghosts->face_tractions(displacement, scene.loads, time))
+      {
+        const auto is_here = [&](const std::size_t k) {
+          const auto &ids = scene.condition_boundaries[k];
+          return std::count(ids.begin(), ids.end(), seen.boundary) > 0;
+        };
+        if (!is_here(condition))
+          continue;
+        dealii::Tensor<1, dim> force = seen.point.area * seen.traction;
+        for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (is_here(k) && scene.loads.conditions[k].holds(d))
+              force[d] = 0.;
+        result.add(seen.point.position, force);
+      }
+    return result;
+  }
+
+  template <int dim>
   Json Simulation<dim>::load_resultants(const double time) const
   {
     Json           result = {{"conditions", Json::object()}};
     NodalVector    force;
-    Resultant<dim> total;
+    Resultant<dim> total, by_faces;
     scene.system->initialize(force);
     for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
       if (const auto &condition = scene.loads.conditions[k]; condition.prescribes_traction())
@@ -108,10 +130,14 @@ namespace perideal
                 alone.conditions[other].traction = {};
                 alone.conditions[other].pressure = {};
               }
-          set_tractions(alone, time, force);
-          const auto nodal     = sum_of(add_up(*scene.nodes, force), communicator);
+          if (!scene.ghosts)
+            set_tractions(alone, time, force);
+          const auto nodal =
+            sum_of(scene.ghosts ? met_by_ghosts(k, time) : add_up(*scene.nodes, force), communicator);
           entry["transferred"] = describe(nodal);
-          entry["ratio"]       = ratio_of(nodal, applied, gross);
+          by_faces.force += nodal.force;
+          by_faces.moment += nodal.moment;
+          entry["ratio"] = ratio_of(nodal, applied, gross);
         }
     Resultant<dim> others;
     for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
@@ -120,14 +146,21 @@ namespace perideal
     others = sum_of(others, communicator);
     for (const auto &load : scene.loads.point_loads)
       others.add(load.position, load.force_at(time));
-    total.force += others.force;
-    total.moment += others.moment;
+    for (Resultant<dim> *sum : {&total, &by_faces})
+      {
+        sum->force += others.force;
+        sum->moment += others.moment;
+      }
     result["total"]["applied"] = describe(total);
-    if (!scene.missing_bonds)
+    if (scene.ghosts)
+      result["total"]["transferred"] = describe(by_faces);
+    else if (!scene.missing_bonds)
       result["total"]["transferred"] = describe(sum_of(add_up(*scene.nodes, external_force), communicator));
     return result;
   }
 
-  template Json Simulation<2>::load_resultants(const double) const;
-  template Json Simulation<3>::load_resultants(const double) const;
+  template Resultant<2> Simulation<2>::met_by_ghosts(const std::size_t, const double) const;
+  template Resultant<3> Simulation<3>::met_by_ghosts(const std::size_t, const double) const;
+  template Json         Simulation<2>::load_resultants(const double) const;
+  template Json         Simulation<3>::load_resultants(const double) const;
 } // namespace perideal

@@ -47,6 +47,17 @@ namespace perideal
   }
 
   template <int dim>
+  SolidsByMaterial<dim> Simulation<dim>::compared_solids_on(const Mesh<dim> &mesh) const
+  {
+    if (!parameters.comparison.by_families())
+      return solids_on(mesh);
+    SolidsByMaterial<dim> result;
+    for (const auto id : mesh.material_ids)
+      result[id] = elastic_solid<dim>(*scene.family_stiffness);
+    return result;
+  }
+
+  template <int dim>
   bool Simulation<dim>::by_nodes() const
   {
     return parameters.loads.displacement_treatment == "layer" ||
@@ -188,6 +199,7 @@ namespace perideal
       add_taylor_ghosts();
     if (parameters.loads.has_transfer())
       make_transfer();
+    measure_families();
     scene.family_counts  = scene.bonds->counts;
     scene.family_reports = scene.bonds->reports;
     scene.system         = std::make_unique<ConstrainedOperator<dim>>(
@@ -251,7 +263,7 @@ namespace perideal
           }
         const Mesh<dim> &mesh          = own_mesh ? *own_mesh : *scene.mesh;
         scene.comparisons["reference"] = solve_reference(
-          scene, mesh, solids_on(mesh), parameters.comparison.reference_refinements, 1., timings);
+          scene, mesh, compared_solids_on(mesh), parameters.comparison.reference_refinements, 1., timings);
       }
   }
 
@@ -290,6 +302,7 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id) const; \
   template bool                      Simulation<dim>::by_nodes() const;                                      \
+  template SolidsByMaterial<dim>     Simulation<dim>::compared_solids_on(const Mesh<dim> &) const;           \
   template void                      Simulation<dim>::make_mesh();                                           \
   template void                      Simulation<dim>::make_nodes_and_families();                             \
   template void                      Simulation<dim>::make_gradient();                                       \

@@ -3,6 +3,9 @@
 #include <perideal/application/scene_parameters.h>
 
 // SceneParameters: treatments of boundary conditions that go together, and with the scene.
+#include <array>
+#include <map>
+#include <string>
 
 namespace perideal
 {
@@ -15,13 +18,17 @@ namespace perideal
         .parameter("Boundary conditions/Treatment")
         .given(loads.treatment)
         .allowed("automatic for this form; or set Material/Form to another one");
-    const bool layer = loads.treatment == "layer";
+    // What displacements are given by, and tractions.
+    const std::map<std::string, std::array<const char *, 2>> treatments = {
+      {"layer", {{"layer", "layer"}}},
+      {"printed", {{"surface nodes", "printed transfer"}}},
+      {"balanced", {{"surface nodes", "transfer"}}},
+      {"taylor ghosts", {{"taylor ghosts", "taylor ghosts"}}}};
+    const auto &chosen = treatments.at(loads.treatment);
     if (loads.displacement_treatment == "automatic")
-      loads.displacement_treatment = layer ? "layer" : "surface nodes";
+      loads.displacement_treatment = chosen[0];
     if (loads.traction_treatment == "automatic")
-      loads.traction_treatment = layer                        ? "layer" :
-                                 loads.treatment == "printed" ? "printed transfer" :
-                                                                "transfer";
+      loads.traction_treatment = chosen[1];
   }
 
   void SceneParameters::check_surface_nodes() const
@@ -56,6 +63,31 @@ namespace perideal
       complain("what breaks is told by the nodes of cells", "automatic | layer where bonds break or are cut");
     if (!areal_forces.points.empty())
       complain("areal force densities are sums over nodes of cells", others + " with Areal force densities");
+  }
+
+  void SceneParameters::check_ghosts() const
+  {
+    const bool of_displacements = loads.displacement_treatment == "taylor ghosts";
+    if (!of_displacements && !loads.has_taylor_ghosts())
+      return;
+    const auto complain = [this](const std::string &problem, const std::string &hint) {
+      throw InputError(problem)
+        .parameter("Boundary conditions/Traction treatment")
+        .given(loads.traction_treatment)
+        .hint(hint);
+    };
+    if (!of_displacements || !loads.has_taylor_ghosts())
+      complain("ghosts meet displacements and tractions together, and displacements have the treatment " +
+                 loads.displacement_treatment,
+               "set Boundary conditions/Treatment = taylor ghosts instead of either");
+    if (solver.name != "static")
+      complain("what ghosts do follows from linear statics", "choose another treatment for this solver");
+    if (model.is_consistent())
+      complain("the consistent form takes its boundary conditions at faces",
+               "set Material/Form to another one");
+    if (model.compensates() || model.has_surface_cure())
+      complain("the surface has what it lacks by other means",
+               "set Material/Boundary compensation = none, and Material/Form to another one");
   }
 
   void SceneParameters::check_transfer() const

@@ -55,13 +55,10 @@ namespace perideal
   } // namespace
 
   template <int dim, typename Face>
-  Resultant<dim> integrate_traction(const BoundaryCondition<dim> &condition,
-                                    const Face                   &face,
-                                    const double                  time,
-                                    const dealii::Point<dim>     &about)
+  std::vector<FacePoint<dim>> quadrature_points(const Face &face)
   {
     static const dealii::QGauss<dim - 1> gauss(2);
-    Resultant<dim>                       result;
+    std::vector<FacePoint<dim>>          result;
     double                               measure = 0;
     for (unsigned int q = 0; q < gauss.size(); ++q)
       {
@@ -70,22 +67,35 @@ namespace perideal
         dealii::Tensor<1, dim> normal = at.element / length;
         if (normal * face.normal < 0)
           normal *= -1.;
-        const double share = gauss.weight(q) * length;
-        measure += share;
-        result.add(at.point - about, share * Loads<dim>::traction(condition, at.point, normal, time));
+        result.push_back({at.point, normal, gauss.weight(q) * length});
+        measure += result.back().area;
       }
     // In 2-D that is the thickness.
-    result.force *= face.area / measure;
-    result.moment *= face.area / measure;
+    for (FacePoint<dim> &point : result)
+      point.area *= face.area / measure;
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                               \
-  template struct Resultant<dim>;                                                                               \
-  template dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, dim> &);                                       \
-  template Resultant<dim>       integrate_traction(                                                             \
-          const BoundaryCondition<dim> &, const BoundaryFace<dim> &, const double, const dealii::Point<dim> &); \
-  template Resultant<dim> integrate_traction(                                                                   \
+  template <int dim, typename Face>
+  Resultant<dim> integrate_traction(const BoundaryCondition<dim> &condition,
+                                    const Face                   &face,
+                                    const double                  time,
+                                    const dealii::Point<dim>     &about)
+  {
+    Resultant<dim> result;
+    for (const FacePoint<dim> &point : quadrature_points<dim>(face))
+      result.add(point.position - about,
+                 point.area * Loads<dim>::traction(condition, point.position, point.normal, time));
+    return result;
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                                      \
+  template struct Resultant<dim>;                                                                                      \
+  template std::vector<FacePoint<dim>> quadrature_points(const BoundaryFace<dim> &);                                   \
+  template dealii::Tensor<1, 3>        in_space(const dealii::Tensor<1, dim> &);                                       \
+  template Resultant<dim>              integrate_traction(                                                             \
+                 const BoundaryCondition<dim> &, const BoundaryFace<dim> &, const double, const dealii::Point<dim> &); \
+  template Resultant<dim> integrate_traction(                                                                          \
     const BoundaryCondition<dim> &, const SurfaceFace<dim> &, const double, const dealii::Point<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

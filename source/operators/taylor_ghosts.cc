@@ -4,31 +4,11 @@
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 
 namespace perideal
 {
-  namespace
-  {
-    template <int dim>
-    std::vector<std::pair<dealii::Point<dim>, double>> quadrature_points(const BoundaryFace<dim> &face)
-    {
-      using Geometry = dealii::GeometryInfo<dim - 1>;
-      const dealii::QGauss<dim - 1>                      gauss(2);
-      std::vector<std::pair<dealii::Point<dim>, double>> result;
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        {
-          dealii::Point<dim> point;
-          for (unsigned int v = 0; v < Geometry::vertices_per_cell; ++v)
-            point += Geometry::d_linear_shape_function(gauss.point(q), v) * face.vertices[v];
-          result.emplace_back(point, gauss.weight(q) * face.area);
-        }
-      return result;
-    }
-  } // namespace
-
   template <int dim>
   template <typename MapOfCoefficients>
   void TaylorGhosts<dim>::Rows::add(const MapOfCoefficients &map, const TaylorPolynomial<dim> &polynomial)
@@ -173,15 +153,16 @@ namespace perideal
   {
     const LocalIndex i       = polynomial.nodes.front();
     const double     spacing = families->spacing[i];
-    for (const auto &[point, area] : quadrature_points(face))
+    for (const FacePoint<dim> &point : quadrature_points<dim>(face))
       {
         typename PolynomialResponse<dim>::Map traction;
         for (unsigned int c = 0; c < dim; ++c)
-          traction.row(c) = TaylorBasis<dim>::traction(
-                              (point - families->position[i]) / spacing, stiffness_of_bonds, face.normal, c) /
-                            spacing;
+          traction.row(c) =
+            TaylorBasis<dim>::traction(
+              (point.position - families->position[i]) / spacing, stiffness_of_bonds, point.normal, c) /
+            spacing;
         tractions.add(traction, polynomial);
-        points.push_back({face.boundary, point, area, {}});
+        points.push_back({face.boundary, point, {}});
       }
   }
 

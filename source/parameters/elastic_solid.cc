@@ -131,6 +131,26 @@ namespace perideal
   }
 
   template <int dim>
+  ElasticSolid<dim> elastic_solid(const SymmetricTensor<4, dim> &stiffness)
+  {
+    if constexpr (dim == 3)
+      return {stiffness, PlaneAssumption::solid};
+    else
+      {
+        // What lies across the plane is of no effect in plane strain.
+        SymmetricTensor<4, 3> in_space;
+        for (int i = 0; i < 2; ++i)
+          for (int j = i; j < 2; ++j)
+            for (int k = 0; k < 2; ++k)
+              for (int l = k; l < 2; ++l)
+                in_space[i][j][k][l] = stiffness[i][j][k][l];
+        in_space[2][2][2][2] = stiffness[0][0][0][0];
+        in_space[0][2][0][2] = in_space[1][2][1][2] = stiffness[0][1][0][1];
+        return {in_space, PlaneAssumption::plane_strain};
+      }
+  }
+
+  template <int dim>
   std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, dim> &tensor)
   {
     const auto      kelvin = dealii::Physics::Notation::Kelvin::to_matrix(tensor);
@@ -145,6 +165,8 @@ namespace perideal
 
   template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 2> &);
   template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 3> &);
+  template ElasticSolid<2>     elastic_solid(const SymmetricTensor<4, 2> &);
+  template ElasticSolid<3>     elastic_solid(const SymmetricTensor<4, 3> &);
   template class ElasticSolid<2>;
   template class ElasticSolid<3>;
 } // namespace perideal

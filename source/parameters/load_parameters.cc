@@ -114,8 +114,8 @@ namespace perideal
       treatment,
       "What the next two are where they are automatic, for bonds between nodes: layer: layer and layer; "
       "printed: surface nodes and printed transfer, as published for peridynamics with boundary conditions; "
-      "balanced: surface nodes and transfer; automatic: what suits the model",
-      dealii::Patterns::Selection("automatic|layer|printed|balanced"));
+      "balanced: surface nodes and transfer; taylor ghosts: these for both; automatic: what suits the model",
+      dealii::Patterns::Selection("automatic|layer|printed|balanced|taylor ghosts"));
     prm.add_parameter(
       "Displacement treatment",
       displacement_treatment,

@@ -16,12 +16,14 @@ namespace perideal
 {
   /// Q1 finite elements on the scene's own mesh, timed as "fem: ...".
   /// Appends to @p report what the solver did. Collective.
+  /// @param solids by the mesh's material ids
   template <int dim>
-  NodalField<dim> solve_fem(const SceneState<dim>  &scene,
-                            const double            time,
-                            const double            tolerance,
-                            Timings                &timings,
-                            nlohmann::ordered_json &report);
+  NodalField<dim> solve_fem(const SceneState<dim>       &scene,
+                            const SolidsByMaterial<dim> &solids,
+                            const double                 time,
+                            const double                 tolerance,
+                            Timings                     &timings,
+                            nlohmann::ordered_json      &report);
 
   /// Q2 finite elements on a mesh of the body, refined, at the nodes. Collective.
   /// @param solids by the mesh's material ids

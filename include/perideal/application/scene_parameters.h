@@ -41,6 +41,8 @@ namespace perideal
     bool fem = false;
     /// Q2 finite elements on the refined mesh.
     bool reference = false;
+    /// material | families: whose stiffness the finite elements have.
+    std::string stiffness = "material";
     /// Refinements of the reference's mesh; -1: coarsened once.
     int reference_refinements = 1;
     /// Gmsh file of the same body on which the reference is solved; empty: the scene's mesh.
@@ -53,6 +55,8 @@ namespace perideal
     std::array<std::string, 3> exact;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    bool by_families() const { return stiffness == "families"; }
   };
 
   /// Section "Initial conditions".
@@ -120,6 +124,8 @@ namespace perideal
     /// @throws InputError on what does not go with nodes on the surface, or with transfer functions.
     void check_surface_nodes() const;
     void check_transfer() const;
+    /// @throws InputError on what does not go with Taylor ghosts.
+    void check_ghosts() const;
 
     /// @throws InputError on what does not go with Gauss points, or with compensation factors.
     void check_quadrature() const;

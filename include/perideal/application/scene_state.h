@@ -33,6 +33,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,8 @@ namespace perideal
     std::shared_ptr<ConsistentOperator<dim>> consistent;
     /// The same object as bonds, where tractions act by the bonds that are missing.
     std::shared_ptr<MissingBonds<dim>> missing_bonds;
+    /// C of whole families by their quadrature [Pa], where the scene needs it.
+    std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
     /// The same object as bonds, where ghosts stand for the bonds that are missing.
     std::shared_ptr<TaylorGhosts<dim>>        ghosts;
     std::unique_ptr<ConstrainedOperator<dim>> system;

@@ -79,6 +79,10 @@ namespace perideal
     const MaterialProperties &properties_of(const dealii::types::material_id id) const;
     /// The solids of the cell groups of a mesh of the body.
     SolidsByMaterial<dim> solids_on(const Mesh<dim> &mesh) const;
+    /// Those of finite elements that the solution is compared with.
+    SolidsByMaterial<dim> compared_solids_on(const Mesh<dim> &mesh) const;
+    /// Measures the stiffness of whole families. Collective.
+    void measure_families();
     /// Bulk and shear modulus by cell group, as the model takes them.
     SolidOf<dim> solid_of_model() const;
 
@@ -95,6 +99,16 @@ namespace perideal
     /// Those by the tractions and body forces of some loads on the conditions of the scene, overwritten.
     /// Collective.
     void set_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const;
+    /// Supports by ghosts: forces by condition, strain energy and work of all external forces. Collective.
+    struct GhostBalance
+    {
+      std::vector<dealii::Tensor<1, dim>> reactions;
+      double                              strain_energy, external_work;
+    };
+    GhostBalance balance_of_ghosts(const double time) const;
+    /// Resultant over the faces of a condition of the tractions that ghosts meet there, without held
+    /// components.
+    Resultant<dim> met_by_ghosts(const std::size_t condition, const double time) const;
     /// Resultants of the loads and of what the nodes get of them, for summary.json. Collective.
     nlohmann::ordered_json load_resultants(const double time) const;
     void                   check_loads();

@@ -5,6 +5,8 @@
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/boundary/surface_planes.h>
 
+#include <vector>
+
 namespace perideal
 {
   /// The resultant of forces [N] and their moment about a point [N m]; in 2-D moments are about z.
@@ -22,6 +24,21 @@ namespace perideal
   /// A vector with a third component of zero in 2-D.
   template <int dim>
   dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, dim> &vector);
+
+  /// A quadrature point of a face.
+  template <int dim>
+  struct FacePoint
+  {
+    dealii::Point<dim>     position;
+    dealii::Tensor<1, dim> normal;
+    /// The part of the face that it stands for [m^2].
+    double area;
+  };
+
+  /// Two Gauss points in each direction on the (bi)linear face through its corners.
+  /// @param Face BoundaryFace or SurfaceFace
+  template <int dim, typename Face>
+  std::vector<FacePoint<dim>> quadrature_points(const Face &face);
 
   /**
    * The traction of a condition integrated over a face, by two Gauss points in each direction: exact for

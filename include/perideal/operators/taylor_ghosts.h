@@ -2,6 +2,7 @@
 #ifndef perideal_operators_taylor_ghosts_h
 #define perideal_operators_taylor_ghosts_h
 
+#include <perideal/boundary/face_tractions.h>
 #include <perideal/boundary/taylor_fit.h>
 #include <perideal/operators/bond_operator.h>
 
@@ -76,14 +77,12 @@ namespace perideal
     /// Nodes of this rank that lack bonds.
     LocalIndex n_incomplete() const { return static_cast<LocalIndex>(ghosts.rows.size()); }
 
-    /// The traction C:grad T n at a point of a boundary face, seen from the node of its cell.
+    /// The traction C:grad T n at a point of a boundary face, seen from the node of its cell [Pa].
     struct FaceTraction
     {
       dealii::types::boundary_id boundary;
-      dealii::Point<dim>         point;
-      /// The part of the face that the point stands for [m^2].
-      double                 area;
-      dealii::Tensor<1, dim> traction;
+      FacePoint<dim>             point;
+      dealii::Tensor<1, dim>     traction;
     };
 
     /// Tractions of a solution at the quadrature points of this rank's faces that have a condition [Pa].

@@ -52,6 +52,10 @@ namespace perideal
     bool                            has_no_direction = true;
   };
 
+  /// A solid of a stiffness in the problem's own dimension [Pa]; one of a plane body is that of plane strain.
+  template <int dim>
+  ElasticSolid<dim> elastic_solid(const dealii::SymmetricTensor<4, dim> &stiffness);
+
   /// Eigenvalues, in ascending order, of a symmetric tensor of rank four as a map of symmetric tensors,
   /// which are those of its matrix in Kelvin-Mandel form.
   template <int dim>

@@ -45,7 +45,8 @@ namespace perideal
   /// Sections "Boundary conditions", "Point loads" and "Body force", as text.
   struct LoadParameters
   {
-    /// What the next two are where they are automatic: automatic | layer | printed | balanced.
+    /// What the next two are where they are automatic: automatic | layer | printed | balanced |
+    /// taylor ghosts.
     std::string treatment = "automatic";
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
     /// layer | reference | mirror | surface nodes | taylor ghosts.
