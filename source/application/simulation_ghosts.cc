@@ -46,7 +46,8 @@ namespace perideal
           is_whole[i] = !response.lacks_bonds(i);
         scene.family_stiffness = response.stiffness(is_whole);
       }
-    if (parameters.comparison.by_families() && (!scene.family_stiffness || scene.mesh->material_ids.size() > 1))
+    if (parameters.comparison.by_families() &&
+        (!scene.family_stiffness || scene.mesh->material_ids.size() > 1))
       throw InputError(scene.family_stiffness ? "families of several materials have several stiffnesses" :
                                                 "no family is whole, from which stiffness could be told")
         .parameter("Comparison/Stiffness")
@@ -80,7 +81,7 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                             \
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template void                                   Simulation<dim>::add_taylor_ghosts();                      \
   template void                                   Simulation<dim>::measure_families();                       \
   template typename Simulation<dim>::GhostBalance Simulation<dim>::balance_of_ghosts(const double) const;

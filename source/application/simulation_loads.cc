@@ -73,7 +73,8 @@ namespace perideal
     // No external force acts on nodes that are not those of cells.
     force = 0.;
     if (scene.consistent)
-      compute_nodal_forces(*scene.nodes, *scene.gradient, given, scene.condition_boundaries, time, force);
+      compute_nodal_forces(
+        *scene.nodes, scene.faces, *scene.gradient, given, scene.condition_boundaries, time, force);
     else
       compute_nodal_forces(*scene.nodes,
                            loads.act_in_depth() ? std::vector<BoundaryFace<dim>>() : scene.faces,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/face_tractions.h>
 #include <perideal/boundary/nodal_forces.h>
 
 #include <algorithm>
@@ -17,6 +18,31 @@ namespace perideal
           for (int d = 0; d < dim; ++d)
             force.local_element(dim * i + d) = body_force[d] * nodes.volume[i];
         }
+    }
+
+    /// Forces of the work sum M_kl du_k/dx_l with M = int t (x) (x - middle) dA of each loaded edge.
+    void add_edge_moments(const std::vector<BoundaryFace<2>>                         &faces,
+                          const FaceGradient<2>                                      &gradient,
+                          const Loads<2>                                             &loads,
+                          const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                          const double                                                time,
+                          std::vector<dealii::Tensor<1, 2>>                          &force)
+    {
+      const auto &rows = gradient.rows();
+      for (std::size_t k = 0; k < loads.conditions.size(); ++k)
+        if (loads.conditions[k].prescribes_traction())
+          for (const BoundaryFace<2> &face : faces)
+            if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
+              {
+                dealii::Tensor<2, 2> moment;
+                for (const FacePoint<2> &point : quadrature_points<2>(face))
+                  moment +=
+                    point.area *
+                    outer_product(Loads<2>::traction(loads.conditions[k], point.position, point.normal, time),
+                                  point.position - face.centre);
+                for (BondIndex e = rows.first[face.node]; e < rows.first[face.node + 1]; ++e)
+                  force[rows.column[e]] += moment * rows.value[e];
+              }
     }
   } // namespace
 
@@ -42,6 +68,7 @@ namespace perideal
 
   template <int dim>
   void compute_nodal_forces(const Nodes<dim>                                           &nodes,
+                            const std::vector<BoundaryFace<dim>>                       &faces,
                             const FaceGradient<dim>                                    &gradient,
                             const Loads<dim>                                           &loads,
                             const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
@@ -63,6 +90,8 @@ namespace perideal
               for (BondIndex e = rows.first[p]; e < rows.first[p + 1]; ++e)
                 of_faces[rows.column[e]] += rows.value[e] * pull;
             }
+    if constexpr (dim == 2)
+      add_edge_moments(faces, gradient, loads, boundaries, time, of_faces);
     set_to_body_force(nodes, loads, time, force);
     const auto sums = gradient.graph().sum_to_owners(of_faces);
     for (LocalIndex i = 0; i < nodes.size(); ++i)
@@ -70,16 +99,21 @@ namespace perideal
         force.local_element(dim * i + d) += sums[i][d];
   }
 
-#define PERIDEAL_INSTANTIATE(dim, Faces)                                                                     \
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template void compute_nodal_forces(const Nodes<dim> &,                                                     \
-                                     const Faces &,                                                          \
+                                     const std::vector<BoundaryFace<dim>> &,                                 \
+                                     const Loads<dim> &,                                                     \
+                                     const std::vector<std::vector<dealii::types::boundary_id>> &,           \
+                                     const double,                                                           \
+                                     NodalVector &);                                                         \
+  template void compute_nodal_forces(const Nodes<dim> &,                                                     \
+                                     const std::vector<BoundaryFace<dim>> &,                                 \
+                                     const FaceGradient<dim> &,                                              \
                                      const Loads<dim> &,                                                     \
                                      const std::vector<std::vector<dealii::types::boundary_id>> &,           \
                                      const double,                                                           \
                                      NodalVector &);
-  PERIDEAL_INSTANTIATE(2, std::vector<BoundaryFace<2>>)
-  PERIDEAL_INSTANTIATE(3, std::vector<BoundaryFace<3>>)
-  PERIDEAL_INSTANTIATE(2, FaceGradient<2>)
-  PERIDEAL_INSTANTIATE(3, FaceGradient<3>)
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE
 } // namespace perideal

@@ -47,7 +47,8 @@ namespace
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         for (int d = 0; d < dim; ++d)
           displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
-      compute_nodal_forces(body.nodes, *gradient, loads, boundaries, 1., external);
+      compute_nodal_forces(
+        body.nodes, find_boundary_faces(mesh, body.nodes), *gradient, loads, boundaries, 1., external);
       bonds->internal_force(force, displacement);
       double size = 0, worst = 0;
       for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
