@@ -3,8 +3,8 @@
 
 namespace perideal
 {
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  FamilyOperator<dim, n_sums, own_force_weights>::FamilyOperator(
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  FamilyOperator<dim, n_sums, own_force_weights, deformed>::FamilyOperator(
     const std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> &weights)
     : weights(weights)
     , families(weights->families)
@@ -29,15 +29,19 @@ namespace perideal
       }
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  std::size_t FamilyOperator<dim, n_sums, own_force_weights>::memory_consumption() const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  std::size_t FamilyOperator<dim, n_sums, own_force_weights, deformed>::memory_consumption() const
   {
-    return weights->memory_consumption() + 3 * positions.size() * sizeof(NodeRecord) +
-           2 * n_sums * families->n_local() * sizeof(double);
+    std::size_t bytes = weights->memory_consumption() + 3 * positions.size() * sizeof(NodeRecord) +
+                        2 * n_sums * families->n_local() * sizeof(double);
+    if constexpr (deformed)
+      bytes += 3 * deformation.scale.size() * sizeof(double);
+    return bytes;
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
-  template class FamilyOperator<dim, n_sums, own_force_weights>;
+  template class FamilyOperator<dim, n_sums, own_force_weights, false>;                                      \
+  template class FamilyOperator<dim, n_sums, own_force_weights, true>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE
 } // namespace perideal

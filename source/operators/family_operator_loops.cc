@@ -5,19 +5,20 @@
 
 #include <algorithm>
 
-// The hot loops of FamilyOperator: two passes over all weights->bonds.
+// The hot loops of FamilyOperator: two passes over all weights->bonds. What goes beyond the coordinates
+// in the records of forces is never read.
 
 namespace perideal
 {
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void
-  FamilyOperator<dim, n_sums, own_force_weights>::import_displacement(const NodalVector &displacement) const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::import_displacement(
+    const NodalVector &displacement) const
   {
     import_nodal_records<dim>(displacement, ghosted, displacements);
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::sum_over_families() const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::sum_over_families() const
   {
     for (unsigned int a = 0; a < n_sums; ++a)
       std::fill(sums[a].begin(), sums[a].end(), 0.);
@@ -37,6 +38,12 @@ namespace perideal
                         (lanes(x[j[1]]) - xi) * (lanes(u[j[1]]) - ui),
                         (lanes(x[j[2]]) - xi) * (lanes(u[j[2]]) - ui),
                         (lanes(x[j[3]]) - xi) * (lanes(u[j[3]]) - ui));
+            if constexpr (deformed)
+              {
+                Lanes scale;
+                load(scale, deformation.scale.data() + k);
+                extension *= scale;
+              }
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
@@ -54,8 +61,8 @@ namespace perideal
       }
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::turn_sums_into_states() const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::turn_sums_into_states() const
   {
     perideal::turn_sums_into_states<n_sums>(weights->map, sums, state, ghosted_states);
     // In 2-D both states ride in the record of the displacement, in 3-D the first.
@@ -64,8 +71,8 @@ namespace perideal
         displacements[i].value[dim + a] = state[a][i];
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::sum_forces() const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::sum_forces() const
   {
     const LocalIndex *neighbour = weights->bonds.neighbour.data();
     const NodeRecord *x = positions.data(), *u = displacements.data();
@@ -90,7 +97,16 @@ namespace perideal
                         bond[1] * (uj[1] - ui),
                         bond[2] * (uj[2] - ui),
                         bond[3] * (uj[3] - ui));
-            load(magnitude, weights->stiffness.data() + k);
+            Lanes scale = {}, tension = {};
+            if constexpr (deformed)
+              {
+                load(scale, deformation.scale.data() + k);
+                load(tension, deformation.tension.data() + k);
+                load(magnitude, deformation.stiffness.data() + k);
+                extension *= scale;
+              }
+            else
+              load(magnitude, weights->stiffness.data() + k);
             magnitude *= extension;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
@@ -105,9 +121,13 @@ namespace perideal
                                                         Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
                 magnitude += near * s[i] + far * far_state;
               }
+            if constexpr (deformed)
+              magnitude *= scale;
             for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
               {
-                const Lanes pull = magnitude[lane] * bond[lane];
+                Lanes pull = magnitude[lane] * bond[lane];
+                if constexpr (deformed)
+                  pull += tension[lane] * (uj[lane] - ui);
                 own += pull;
                 lanes(f[j[lane]]) -= pull;
               }
@@ -116,9 +136,9 @@ namespace perideal
       }
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::vmult(NodalVector       &force,
-                                                             const NodalVector &displacement) const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::vmult(NodalVector       &force,
+                                                                       const NodalVector &displacement) const
   {
     import_displacement(displacement);
     if constexpr (n_sums > 0)
@@ -134,7 +154,8 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
-  template class FamilyOperator<dim, n_sums, own_force_weights>;
+  template class FamilyOperator<dim, n_sums, own_force_weights, false>;                                      \
+  template class FamilyOperator<dim, n_sums, own_force_weights, true>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE
 } // namespace perideal

@@ -5,8 +5,9 @@
 
 namespace perideal
 {
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  std::vector<dealii::Tensor<2, dim>> FamilyOperator<dim, n_sums, own_force_weights>::diagonal_blocks() const
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  std::vector<dealii::Tensor<2, dim>>
+  FamilyOperator<dim, n_sums, own_force_weights, deformed>::diagonal_blocks() const
   {
     // K = sum_bonds stiffness xi xi^T + sum_i P_i map_i G_i with the rows
     // G_i = (d s/d u), P_i = (d F/d A). A node stands in its own G, P and in
@@ -21,7 +22,7 @@ namespace perideal
           const LocalIndex j = weights->bonds.neighbour[k];
           if (j == i)
             continue;
-          const auto                 xi = bond_vector(i, j);
+          const auto                 xi = bond_vector(i, j, k);
           std::array<double, n_sums> near_sum, far_sum;
           for (unsigned int a = 0; a < n_sums; ++a)
             {
@@ -36,17 +37,20 @@ namespace perideal
                 }
             }
           // The neighbour's family moves with this node, and the other way round.
-          double     of_i = weights->stiffness[k], of_j = weights->stiffness[k];
+          double     of_i = stiffness(k), of_j = stiffness(k);
           const auto far_states = weights->states(j, far_sum), near_states = weights->states(i, near_sum);
           for (unsigned int a = 0; a < n_sums; ++a)
             {
               of_i += weights->force_weights()[a].far[k] * far_states[a];
               of_j += weights->force_weights()[a].near[k] * near_states[a];
             }
-          const auto square = outer_product(xi, xi);
-          result[i] += of_i * square;
+          const auto             square = outer_product(xi, xi);
+          dealii::Tensor<2, dim> across;
+          if constexpr (deformed)
+            across = deformation.tension[k] * dealii::unit_symmetric_tensor<dim>();
+          result[i] += of_i * square + across;
           if (j < n_owned)
-            result[j] += of_j * square;
+            result[j] += of_j * square + across;
         }
     for (LocalIndex i = 0; i < n_owned; ++i)
       for (unsigned int a = 0; a < n_sums; ++a)
@@ -60,8 +64,8 @@ namespace perideal
     return result;
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::assemble(
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::assemble(
     const typename BondOperator<dim>::AddBlock &add) const
   {
     BondCursor                   cursor(weights->bonds);
@@ -87,7 +91,7 @@ namespace perideal
           {
             const LocalIndex      j   = families->begin(i)[m];
             const BondCursor::End end = ends[m];
-            const auto            xi  = bond_vector(i, j);
+            const auto            xi  = bond_vector(i, j, end.slot);
             const std::size_t     at  = dim * (m + 1);
             for (int d = 0; d < dim; ++d)
               unknowns[at + d] = dim * families->global_number(j) + d;
@@ -107,7 +111,9 @@ namespace perideal
             for (int r = 0; r < dim; ++r)
               for (int c = 0; c < dim; ++c)
                 {
-                  const double entry = weights->stiffness[end.slot] * xi[r] * xi[c];
+                  double entry = stiffness(end.slot) * xi[r] * xi[c];
+                  if constexpr (deformed)
+                    entry += r == c ? deformation.tension[end.slot] : 0.;
                   values[r * n + c] += entry;
                   values[r * n + at + c] -= entry;
                 }
@@ -127,8 +133,8 @@ namespace perideal
       }
   }
 
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyOperator<dim, n_sums, own_force_weights>::visit_bond_forces(
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::visit_bond_forces(
     const typename BondOperator<dim>::VisitBond &visit) const
   {
     for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
@@ -137,20 +143,24 @@ namespace perideal
           const LocalIndex j = weights->bonds.neighbour[k];
           if (j == i)
             continue;
-          const auto xi        = bond_vector(i, j);
-          double     extension = 0, magnitude = 0;
+          const auto             xi = bond_vector(i, j, k);
+          dealii::Tensor<1, dim> eta;
           for (int d = 0; d < dim; ++d)
-            extension += xi[d] * (displacements[j].value[d] - displacements[i].value[d]);
-          magnitude = weights->stiffness[k] * extension;
+            eta[d] = displacements[j].value[d] - displacements[i].value[d];
+          double magnitude = stiffness(k) * (xi * eta);
           for (unsigned int a = 0; a < n_sums; ++a)
             magnitude += weights->force_weights()[a].near[k] * state[a][i] +
                          weights->force_weights()[a].far[k] * state[a][j];
-          visit(i, j, magnitude * xi);
+          dealii::Tensor<1, dim> force = magnitude * xi;
+          if constexpr (deformed)
+            force += deformation.tension[k] * eta;
+          visit(i, j, force);
         }
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
-  template class FamilyOperator<dim, n_sums, own_force_weights>;
+  template class FamilyOperator<dim, n_sums, own_force_weights, false>;                                      \
+  template class FamilyOperator<dim, n_sums, own_force_weights, true>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
 #undef PERIDEAL_INSTANTIATE
 } // namespace perideal

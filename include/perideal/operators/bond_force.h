@@ -60,8 +60,8 @@ namespace perideal
     /// Receives a bond's nodes (the first owned) and the force it puts on the first [N].
     using VisitBond = std::function<void(const LocalIndex, const LocalIndex, const dealii::Tensor<1, dim> &)>;
 
-    /// Shows the bond forces of the last compute(); a bond that the partition cuts is shown on both ranks,
-    /// from either end. Lost bonds pull with nothing.
+    /// Shows the bond forces of the last compute() in the order of bond_list(); a bond that the partition
+    /// cuts is shown on both ranks, from either end. Lost bonds pull with nothing.
     virtual void visit_bond_forces(const VisitBond &visit) const = 0;
 
     /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both

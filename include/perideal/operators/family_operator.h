@@ -5,22 +5,39 @@
 #include <perideal/base/lanes.h>
 #include <perideal/operators/bond_operator.h>
 #include <perideal/operators/family_weights.h>
+#include <perideal/operators/tangent_operator.h>
 
 #include <deal.II/base/aligned_vector.h>
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace perideal
 {
+  /// Of FamilyOperator at rest: nothing.
+  struct BondsAtRest
+  {
+  };
+
+  /// Of FamilyOperator in the deformed body, by slot: |xi|/|y_j - y_i|, zero of bonds that carry nothing;
+  /// k' and g as TangentOperator has them [N/m^3], [N/m].
+  struct DeformedBonds
+  {
+    std::vector<double> scale, stiffness, tension;
+  };
+
   /**
    * The linear loops for models of one family shape. The vector of a bond is recomputed from
    * the positions, which is faster than loading it.
+   *
+   * The same loops make the tangent in the deformed body: the vector there is p = scale (y_j - y_i) for xi,
+   * the stiffness k', and g adds to the force.
    */
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  class FamilyOperator : public BondOperator<dim>
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed = false>
+  class FamilyOperator : public std::conditional_t<deformed, TangentOperator<dim>, BondOperator<dim>>
   {
   public:
     explicit FamilyOperator(
@@ -40,22 +57,43 @@ namespace perideal
     bool        is_symmetric() const override { return weights->symmetric; }
     std::size_t memory_consumption() const override;
 
+  protected:
+    /// The vector of the bond between two local nodes, deformed or not.
+    dealii::Tensor<1, dim> bond_vector(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
+    {
+      if constexpr (!deformed)
+        return families->position[j] - families->position[i];
+      else
+        {
+          dealii::Tensor<1, dim> result;
+          for (int d = 0; d < dim; ++d)
+            result[d] = deformation.scale[slot] * (positions[j].value[d] - positions[i].value[d]);
+          return result;
+        }
+    }
+
+    std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> weights;
+    std::shared_ptr<const Families<dim>>                                 families;
+    /// Where the nodes are.
+    dealii::AlignedVector<NodeRecord>                        positions;
+    std::conditional_t<deformed, DeformedBonds, BondsAtRest> deformation;
+
   private:
     void import_displacement(const NodalVector &displacement) const;
     void sum_over_families() const;
     void turn_sums_into_states() const;
     void sum_forces() const;
 
-    dealii::Tensor<1, dim> bond_vector(const LocalIndex i, const LocalIndex j) const
+    /// What multiplies the bond's own extension in its force.
+    double stiffness(const BondIndex slot) const
     {
-      return families->position[j] - families->position[i];
+      if constexpr (deformed)
+        return deformation.stiffness[slot];
+      else
+        return weights->stiffness[slot];
     }
 
-    std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> weights;
-    std::shared_ptr<const Families<dim>>                                 families;
-
     // Work space of vmult().
-    dealii::AlignedVector<NodeRecord>               positions;
     mutable dealii::AlignedVector<NodeRecord>       displacements, forces;
     mutable std::array<std::vector<double>, n_sums> sums;
     mutable std::array<std::vector<double>, n_sums> state;
