@@ -67,7 +67,7 @@ namespace perideal
     const auto points = read_areal_force_points<dim>(parameters.areal_forces);
     check_inside(*scene.mesh, points);
     using Model            = LinearModel<dim>;
-    const bool in_motion   = parameters.solver.is_dynamic() || parameters.solver.is_relaxation();
+    const bool in_motion   = parameters.solver.is_dynamic() || parameters.solver.is_nonlinear_static();
     const auto kinematics  = in_motion ? Model::Kinematics::finite : Model::Kinematics::linear;
     const bool bonds_whole = !can_break(parameters) && parameters.precracks.cracks.empty();
     std::unique_ptr<const Model> model;

@@ -95,7 +95,7 @@ namespace perideal
     const auto breaks = [](const MaterialProperties &m) {
       return m.fracture_energy > 0 || m.critical_stretch > 0;
     };
-    return (parameters.solver.is_dynamic() || parameters.solver.is_relaxation()) &&
+    return (parameters.solver.is_dynamic() || parameters.solver.is_nonlinear_static()) &&
            (breaks(parameters.material.body) ||
             std::any_of(parameters.material.groups.begin(),
                         parameters.material.groups.end(),
@@ -133,7 +133,7 @@ namespace perideal
         result["mass and velocity (statics)"] = 2 * dim * nodes;
         if (parameters.solver.is_relaxation())
           result["matrix, preconditioner (relaxation)"] = 1;
-        else
+        else if (!parameters.solver.is_quasi_static())
           result["set-ups of further load steps (linear)"] = parameters.solver.load_steps - 1;
       }
     if (alone)
@@ -189,6 +189,10 @@ namespace perideal
       out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
     if (parameters.solver.is_relaxation())
       out << "solver      dynamic relaxation in " << parameters.solver.load_steps << " load step(s)\n";
+    if (parameters.solver.is_quasi_static())
+      out << "solver      quasi static, Newton's method in " << parameters.solver.load_steps
+          << " load step(s)" << (scene.tangent_solver ? ", tangents by " + scene.tangent_solver->name() : "")
+          << '\n';
     if (parameters.solver.is_dynamic() && has_contact(parameters))
       out << "contact     of nodes without a bond, nearer than " << parameters.contact.distance
           << " spacings\n";

@@ -10,14 +10,14 @@ namespace perideal
   void SceneParameters::resolve()
   {
     model.resolve(dimension,
-                  solver.is_dynamic() || solver.is_relaxation() ? ModelParameters::Use::motion :
-                                                                  ModelParameters::Use::statics);
+                  solver.is_dynamic() || solver.is_nonlinear_static() ? ModelParameters::Use::motion :
+                                                                        ModelParameters::Use::statics);
     resolve_treatment();
     check_surface_nodes();
     if (solver.is_dynamic())
       check_dynamics();
-    else if (solver.is_relaxation())
-      check_relaxation();
+    else if (solver.is_nonlinear_static())
+      check_nonlinear_statics();
     else
       check_statics();
     check_areal_forces();
@@ -98,7 +98,7 @@ namespace perideal
     };
     if (model.model != "bond based")
       complain("not Material/Model = " + model.model);
-    if (solver.is_dynamic() || solver.is_relaxation())
+    if (solver.is_dynamic() || solver.is_nonlinear_static())
       complain("not Solver/Name = " + solver.name);
     if (loads.displacement_treatment == "mirror")
       complain("and mirrored nodes have no cells");
@@ -189,19 +189,20 @@ namespace perideal
       complain("Material/Multipliers");
   }
 
-  void SceneParameters::check_relaxation() const
+  void SceneParameters::check_nonlinear_statics() const
   {
+    const std::string method = solver.is_quasi_static() ? "quasi static" : "dynamic relaxation";
     if (model.is_linear_only())
       throw InputError("this form is one of linear statics")
         .parameter("Material/Form")
         .given(model.form)
-        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamic relaxation");
+        .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in " + method);
     const std::string &treatment = loads.displacement_treatment;
     if (treatment != "automatic" && treatment != "layer" && !loads.has_surface_nodes())
-      throw InputError("dynamic relaxation holds nodes")
+      throw InputError(method + " holds nodes")
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)
-        .allowed("automatic | layer | surface nodes in dynamic relaxation");
+        .allowed("automatic | layer | surface nodes in " + method);
     check_no_motion();
     for (const std::string &field : field_names())
       if (field == "velocity")
@@ -218,9 +219,9 @@ namespace perideal
   void SceneParameters::check_statics() const
   {
     const auto complain = [](const std::string &parameter) {
-      throw InputError("this belongs to dynamics and dynamic relaxation")
+      throw InputError("this belongs to dynamics, quasi static and dynamic relaxation")
         .parameter(parameter)
-        .hint("set Solver/Name = dynamics, or = dynamic relaxation");
+        .hint("set Solver/Name = dynamics, or = quasi static");
     };
     check_no_motion();
     for (const std::string &field : field_names())

@@ -48,6 +48,11 @@ namespace perideal
         run_relaxation();
         return;
       }
+    if (parameters.solver.is_quasi_static())
+      {
+        run_quasi_static();
+        return;
+      }
     find_free_motions();
     weigh_bonds();
     prepare_comparisons();
@@ -257,6 +262,7 @@ namespace perideal
     result["operator_bytes"] = dealii::Utilities::MPI::sum(
       scene.families->memory_consumption() +
         (scene.force ? scene.force->memory_consumption() : scene.bonds->memory_consumption()) +
+        (scene.tangent ? scene.tangent->memory_consumption() : 0) +
         (scene.contact ? scene.contact->memory_consumption() : 0),
       communicator);
     result["ranks"] = dealii::Utilities::MPI::n_mpi_processes(communicator);
@@ -270,7 +276,7 @@ namespace perideal
       screen << describe_loads(summary["loads"]);
     if (status == "done" && parameters.solver.is_dynamic())
       screen << describe_motion(summary);
-    if (parameters.solver.is_relaxation())
+    if (parameters.solver.is_nonlinear_static())
       screen << describe_damage(summary, "");
     if (status == "done" && scene.areal_forces)
       screen << describe_areal_forces(summary["areal_force_densities"]);

@@ -18,7 +18,7 @@ namespace perideal
     make_nodes_and_families();
     if (parameters.solver.is_dynamic())
       prepare_dynamics();
-    if (parameters.solver.is_relaxation())
+    if (parameters.solver.is_nonlinear_static())
       prepare_cracks();
     weigh_bonds();
     make_relative_damping();
@@ -49,7 +49,7 @@ namespace perideal
         else
           screen << "no fracture energy given, unbreakable\n";
       }
-    if (!parameters.solver.is_dynamic() && !parameters.solver.is_relaxation())
+    if (!parameters.solver.is_dynamic() && !parameters.solver.is_nonlinear_static())
       {
         if (!scene.gradient)
           make_gradient();

@@ -5,12 +5,14 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/fracture/fragments.h>
 #include <perideal/output/summary.h>
+#include <perideal/solvers/dynamic_relaxation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
 
-// Simulation: equilibria of the nonlinear force by dynamic relaxation, with failure.
+// Simulation: equilibria of the nonlinear force along load steps, with failure, by dynamic relaxation or
+// whatever finds them.
 
 namespace perideal
 {
@@ -40,6 +42,31 @@ namespace perideal
             }
       summary["reactions"] = reactions;
     }
+
+    /// What a load step that failed tells the user.
+    std::string describe_failure(const SolverParameters &solver,
+                                 const unsigned int      number,
+                                 const double            time,
+                                 const EquilibriumStep  &result,
+                                 const GlobalIndex       n_broken)
+    {
+      const std::string broke_apart =
+        "a body that broke apart under forces has no equilibrium: prescribe displacements instead, or take "
+        "Solver/Name = ";
+      return (solver.is_quasi_static() ? "Newton's method stopped in load step " :
+                                         "dynamic relaxation stopped in load step ") +
+             std::to_string(number) + ", t = " + short_number(time) + ", after " +
+             std::to_string(result.iterations) + " iterations at a relative residual of " +
+             short_number(result.residuals.back()) + ", not at " + short_number(solver.tolerance) +
+             (result.problem.empty() ? "" : ", since " + result.problem) + ", with " +
+             std::to_string(n_broken) + " broken bonds\n  advice: " +
+             (solver.is_quasi_static() ?
+                "raise Solver/Load steps, so that each moves the body less, or Solver/Newton iterations; see "
+                "the residuals in history.h5; a body that buckles or softens may want Solver/Name = dynamic "
+                "relaxation; " +
+                  broke_apart + "dynamics" :
+                "raise Solver/Maximum iterations; " + broke_apart + "dynamics");
+    }
   } // namespace
 
   template <int dim>
@@ -58,17 +85,23 @@ namespace perideal
     announce();
     check_loads();
     open_outputs();
+    typename DynamicRelaxation<dim>::Controls controls;
+    controls.tolerance      = parameters.solver.tolerance;
+    controls.max_iterations = parameters.solver.max_iterations;
+    controls.bonds_break    = can_break(parameters);
+    DynamicRelaxation<dim> relaxation(*scene.force, *scene.system, scene.held, scene.loads, controls);
+    run_load_steps(relaxation);
+  }
+
+  template <int dim>
+  void Simulation<dim>::run_load_steps(EquilibriumPath<dim> &path)
+  {
     if (scene.crack_tracker)
       scene.crack_tracker->start(scene.force->cut_share());
     try
       {
-        typename DynamicRelaxation<dim>::Controls controls;
-        controls.tolerance      = parameters.solver.tolerance;
-        controls.max_iterations = parameters.solver.max_iterations;
-        controls.bonds_break    = can_break(parameters);
-        DynamicRelaxation<dim> relaxation(*scene.force, *scene.system, scene.held, scene.loads, controls);
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
-          relax_step(number, relaxation);
+          equilibrium_step(number, path);
         if (scene.crack_tracker)
           scene.crack_tracker->write_paths(parameters.output_directory);
       }
@@ -81,66 +114,69 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::relax_step(const unsigned int number, DynamicRelaxation<dim> &relaxation)
+  void Simulation<dim>::equilibrium_step(const unsigned int number, EquilibriumPath<dim> &path)
   {
-    const double time          = static_cast<double>(number) / parameters.solver.load_steps;
+    const double      time = static_cast<double>(number) / parameters.solver.load_steps;
+    const std::string what = "load step " + std::to_string(number) + " of " +
+                             std::to_string(parameters.solver.load_steps) + ", " +
+                             std::to_string(path.n_broken()) + " broken bonds";
     summary["solver"]["steps"] = number;
-    RelaxedStep result;
+    EquilibriumStep result;
     {
       const Timings::Scope scope(timings, "solve");
       apply_loads(time);
       scene.null_space.project(external_force);
-      ProgressLine progress(screen.get_stream(),
-                            screen.is_active(),
-                            "load step " + std::to_string(number) + " of " +
-                              std::to_string(parameters.solver.load_steps) + ", " +
-                              std::to_string(relaxation.n_broken()) + " broken bonds",
-                            parameters.solver.tolerance);
-      result = relaxation.relax(
-        external_force, time, [&](const unsigned int iteration, const double r) { progress(iteration, r); });
+      ProgressLine progress(screen.get_stream(), screen.is_active(), what, parameters.solver.tolerance);
+      result = path.step(external_force, time, [&](const unsigned int iteration, const double r) {
+        if (parameters.solver.is_quasi_static())
+          screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+        else
+          progress(iteration, r);
+      });
     }
-    displacement = relaxation.displacement;
+    displacement = path.displacement;
     store_displacement();
-    record_relaxation(number, result, relaxation);
+    record_equilibrium(number, result, path);
     if (!result.converged)
-      throw ComputationError(
-        "dynamic relaxation stopped in load step " + std::to_string(number) + ", t = " + short_number(time) +
-        ", after " + std::to_string(result.iterations) + " iterations at a relative residual of " +
-        short_number(result.residuals.back()) + ", not at " + short_number(parameters.solver.tolerance) +
-        ", with " + std::to_string(relaxation.n_broken()) +
-        " broken bonds\n  advice: raise Solver/Maximum iterations; a body that broke apart under forces has "
-        "no equilibrium: prescribe displacements instead, or take Solver/Name = dynamics");
+      throw ComputationError(describe_failure(parameters.solver, number, time, result, path.n_broken()));
     write_fields(number, time);
   }
 
   template <int dim>
-  void Simulation<dim>::record_relaxation(const unsigned int            number,
-                                          const RelaxedStep            &result,
-                                          const DynamicRelaxation<dim> &relaxation)
+  void Simulation<dim>::record_equilibrium(const unsigned int          number,
+                                           const EquilibriumStep      &result,
+                                           const EquilibriumPath<dim> &path)
   {
     const double time = static_cast<double>(number) / parameters.solver.load_steps;
     summary["solver"]["iterations"].push_back(result.iterations);
     summary["solver"]["converged"] = result.converged;
     history->add_series("residuals of step " + std::to_string(number), result.residuals);
+    if (parameters.solver.is_quasi_static())
+      {
+        summary["solver"]["linear_iterations"].push_back(result.linear_iterations);
+        summary["solver"]["residuals"].push_back(result.residuals);
+      }
 
-    const EnergyBudget &energy = relaxation.energy();
+    const EnergyBudget &energy = path.energy();
     largest_energy             = std::max({largest_energy, std::abs(energy.external), energy.strain});
     const double drift         = largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
     history->add("step", number);
     history->add("time [s]", time);
     history->add("iterations", result.iterations);
+    if (parameters.solver.is_quasi_static())
+      history->add("linear iterations", result.linear_iterations);
     history->add("residual [-]", result.residuals.back());
     history->add("strain energy [J]", energy.strain);
     history->add("dissipated energy [J]", energy.dissipated);
     history->add("external work [J]", energy.external);
     history->add("drift [-]", drift);
-    history->add("broken bonds", relaxation.n_broken());
+    history->add("broken bonds", path.n_broken());
     record_reactions<dim>(
-      scene.loads, scene.held.sum_by_condition(relaxation.reaction(), communicator), *history, summary);
+      scene.loads, scene.held.sum_by_condition(path.reaction(), communicator), *history, summary);
     if (scene.crack_tracker)
       {
         scene.crack_tracker->update(time, total_damage());
-        record_crack_tips(relaxation.n_broken(), time);
+        record_crack_tips(path.n_broken(), time);
         summary["cracks"] = scene.crack_tracker->describe();
       }
     if (scene.areal_forces)
@@ -154,7 +190,7 @@ namespace perideal
       return;
     if (result.broken > 0 && !summary["damage"].contains("first_break_time"))
       summary["damage"]["first_break_time"] = time;
-    summary["damage"]["broken_bonds"] = relaxation.n_broken();
+    summary["damage"]["broken_bonds"] = path.n_broken();
     if (result.broken > 0 || !summary["damage"].contains("fragments"))
       summary["damage"]["fragments"] = find_fragments(*scene.families,
                                                       scene.force->bond_list(),
@@ -163,7 +199,9 @@ namespace perideal
                                                       parameters.cracks.damage);
   }
 
-#define PERIDEAL_INSTANTIATE(dim) template void Simulation<dim>::run_relaxation();
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void Simulation<dim>::run_relaxation();                                                           \
+  template void Simulation<dim>::run_load_steps(EquilibriumPath<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -268,11 +268,11 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::set_up_solver()
+  PreconditionerChoice Simulation<dim>::prepare_preconditioner(const unsigned int n_solves)
   {
-    const Timings::Scope scope(timings, "setup");
-    const Timings::Scope part(timings, "setup: preconditioner");
-    const auto           choice = choose_preconditioner(parameters.solver,
+    SolverParameters solves = parameters.solver;
+    solves.load_steps       = n_solves;
+    const auto choice       = choose_preconditioner(solves,
                                               measure_solve(*scene.mesh,
                                                             *scene.nodes,
                                                             *scene.system,
@@ -287,16 +287,25 @@ namespace perideal
           scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
         scene.auxiliary_fem->assemble(scene.solids, 0.);
       }
-    scene.linear_solver                 = create_linear_solver(parameters.solver,
+    summary["solver"]["preconditioner"] = choice.preconditioner;
+    summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
+    return choice;
+  }
+
+  template <int dim>
+  void Simulation<dim>::set_up_solver()
+  {
+    const Timings::Scope scope(timings, "setup");
+    const Timings::Scope part(timings, "setup: preconditioner");
+    const auto           choice = prepare_preconditioner(parameters.solver.load_steps);
+    scene.linear_solver         = create_linear_solver(parameters.solver,
                                                choice,
                                                *scene.system,
                                                scene.null_space,
                                                *scene.nodes,
                                                scene.auxiliary_fem.get(),
                                                scene.surface_nodes.get());
-    summary["solver"]["name"]           = scene.linear_solver->name();
-    summary["solver"]["preconditioner"] = choice.preconditioner;
-    summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
+    summary["solver"]["name"] = scene.linear_solver->name();
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
@@ -310,6 +319,7 @@ namespace perideal
   template void                      Simulation<dim>::weigh_bonds();                                         \
   template void                      Simulation<dim>::find_free_motions();                                   \
   template void                      Simulation<dim>::prepare_comparisons();                                 \
+  template PreconditionerChoice      Simulation<dim>::prepare_preconditioner(const unsigned int);            \
   template void                      Simulation<dim>::set_up_solver();
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

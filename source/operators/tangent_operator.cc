@@ -17,8 +17,7 @@ namespace perideal
     public:
       using Loops = FamilyOperator<dim, n_sums, own_force_weights, true>;
 
-      explicit FamilyTangent(
-        const std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> &from)
+      explicit FamilyTangent(const std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> &from)
         : Loops(from)
       {
         deformation.scale.assign(weights->bonds.n_slots(), 1.);
@@ -119,8 +118,7 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  std::unique_ptr<TangentOperator<dim>>
-  create_tangent(const std::shared_ptr<const BondWeights<dim>> &weights)
+  std::unique_ptr<TangentOperator<dim>> create_tangent(const std::shared_ptr<const BondWeights<dim>> &weights)
   {
     if (weights->shape.bond_tensors)
       return std::make_unique<TensorTangent<dim>>(

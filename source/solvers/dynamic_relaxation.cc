@@ -8,14 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace perideal
 {
   namespace
   {
-    /// Relative residual at which bonds are judged.
-    constexpr double judge_tolerance = 1e-4;
     /// Largest damping; from 2 on the motion of a step would turn round.
     constexpr double largest_damping = 1.9;
   } // namespace
@@ -26,29 +23,11 @@ namespace perideal
                                             const HeldNodes<dim>           &held,
                                             const Loads<dim>               &loads,
                                             const Controls                 &controls)
-    : bonds(bonds)
-    , held(held)
-    , loads(loads)
-    , controls(controls)
+    : EquilibriumPath<dim>(bonds, system, held, loads, controls)
   {
-    for (NodalVector *vector : {&displacement,
-                                &mass,
-                                &velocity,
-                                &force,
-                                &earlier_force,
-                                &anchor,
-                                &anchor_force,
-                                &last_displacement,
-                                &last_external,
-                                &support_force,
-                                &increment})
+    for (NodalVector *vector : {&mass, &velocity, &anchor, &anchor_force})
       bonds.initialize(*vector);
-    bonds.judge_bonds(false);
     set_masses(system);
-    const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
-    for (LocalIndex i = 0; i < system.n_nodes(); ++i)
-      for (int d = 0; d < dim; ++d)
-        rest_position.push_back(nodes.position[i][d]);
   }
 
   template <int dim>
@@ -81,78 +60,19 @@ namespace perideal
   }
 
   template <int dim>
-  RelaxedStep
-  DynamicRelaxation<dim>::relax(const NodalVector &external, const double time, const Progress &progress)
-  {
-    start_step(time);
-    RelaxedStep  result;
-    unsigned int since_break = 0;
-    bool         judged      = !controls.bonds_break;
-    compute_forces();
-    while (true)
-      {
-        const Sums   sums      = measure(external);
-        const double reference = std::sqrt(std::max({sums.reaction, sums.load, largest_load}));
-        const double residual  = std::sqrt(sums.residual);
-        result.residuals.push_back(reference > 0 ? residual / reference : 0.);
-        progress(result.iterations, result.residuals.back());
-        const bool at_rest = residual <= std::max(controls.tolerance * reference, rounding);
-        if (controls.bonds_break && (at_rest || (!judged && residual <= judge_tolerance * reference)))
-          {
-            const GlobalIndex now = break_bonds(external);
-            result.broken += now;
-            judged = now == 0;
-            if (now > 0)
-              {
-                largest_load = std::max({largest_load, sums.reaction, sums.load});
-                since_break  = 0;
-                continue;
-              }
-          }
-        if (at_rest)
-          {
-            largest_load = std::max({largest_load, sums.reaction, sums.load});
-            balance(external, force, bonds.strain_energy());
-            result.converged = true;
-            return result;
-          }
-        if (since_break == controls.max_iterations || !std::isfinite(residual))
-          return result;
-        adapt(sums);
-        move(external);
-        ++since_break;
-        ++result.iterations;
-        compute_forces();
-      }
-  }
-
-  template <int dim>
   void DynamicRelaxation<dim>::start_step(const double time)
   {
-    // As the last step went on, unless bonds broke in it.
-    if (!broke_in_step && last_interval > 0)
-      displacement.add((time - last_time) / last_interval, increment);
-    held.set_boundary_values(loads, time, displacement);
+    if (!this->broke_in_step && last_interval > 0)
+      displacement.add((time - last_time) / last_interval, this->increment);
+    held.set_boundary_values(this->loads, time, displacement);
     last_interval = time - last_time;
     last_time     = time;
-    increment     = 0.;
-    broke_in_step = false;
-    stop_motion();
-
-    // Positions y are rounded by eps |y|; forces that stay were measured to be twice what that makes of
-    // masses at most.
-    double sum = 0;
-    for (std::size_t k = 0; k < rest_position.size(); ++k)
-      {
-        const double y = mass.local_element(k) * (rest_position[k] + displacement.local_element(k));
-        sum += y * y;
-      }
-    sum      = dealii::Utilities::MPI::sum(sum, displacement.get_mpi_communicator());
-    rounding = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+    forget_motion();
+    this->set_rounding(mass);
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::stop_motion()
+  void DynamicRelaxation<dim>::forget_motion()
   {
     velocity        = 0.;
     in_motion       = false;
@@ -162,14 +82,23 @@ namespace perideal
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::compute_forces()
+  typename EquilibriumPath<dim>::Norms DynamicRelaxation<dim>::measure(const NodalVector &external)
   {
-    earlier_force.swap(force);
-    bonds.compute(force, displacement);
+    sums = sum_up(external);
+    return sums.forces;
   }
 
   template <int dim>
-  typename DynamicRelaxation<dim>::Sums DynamicRelaxation<dim>::measure(const NodalVector &external) const
+  bool DynamicRelaxation<dim>::iterate(const NodalVector &external, EquilibriumStep &)
+  {
+    adapt();
+    move(external);
+    this->compute_forces();
+    return true;
+  }
+
+  template <int dim>
+  typename DynamicRelaxation<dim>::Sums DynamicRelaxation<dim>::sum_up(const NodalVector &external) const
   {
     std::array<double, 8> sums    = {};
     const auto           &is_held = held.mask();
@@ -199,11 +128,11 @@ namespace perideal
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), sums.size()),
                                 displacement.get_mpi_communicator(),
                                 dealii::ArrayView<double>(all.data(), all.size()));
-    return {all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7]};
+    return {{all[0], all[1], all[2]}, all[3], all[4], all[5], all[6], all[7]};
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::adapt(const Sums &sums)
+  void DynamicRelaxation<dim>::adapt()
   {
     if (!in_motion)
       {
@@ -212,7 +141,7 @@ namespace perideal
         return;
       }
     // Changes that rounding makes say nothing.
-    if (sums.v_K_v > 4 * sums.v_M_v && sums.change > 4 * rounding * rounding)
+    if (sums.v_K_v > 4 * sums.v_M_v && sums.change > 4 * this->rounding * this->rounding)
       mass *= std::min(2., 1.1 * sums.v_K_v / (4 * sums.v_M_v));
     ++since_anchor;
     const double omega = sums.d_K_d > 0 ? std::sqrt(sums.d_K_d / sums.d_M_d) : 0.;
@@ -244,49 +173,6 @@ namespace perideal
           u[k] += v[k];
         }
     in_motion = true;
-  }
-
-  template <int dim>
-  GlobalIndex DynamicRelaxation<dim>::break_bonds(const NodalVector &external)
-  {
-    bonds.judge_bonds(true);
-    compute_forces();
-    bonds.judge_bonds(false);
-    const GlobalIndex now = bonds.n_broken_now();
-    if (now == 0)
-      return 0;
-    stop_motion();
-    // At rest, the energy that goes at once is that of the weights lost.
-    balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(velocity, 0.));
-    broken += now;
-    broke_in_step = broke_in_segment = true;
-    return now;
-  }
-
-  template <int dim>
-  void DynamicRelaxation<dim>::balance(const NodalVector &external,
-                                       const NodalVector &internal,
-                                       const double       strain_energy)
-  {
-    const auto &is_held = held.mask();
-    double      work    = 0;
-    for (std::size_t k = 0; k < is_held.size(); ++k)
-      {
-        const double p       = external.local_element(k),
-                     support = is_held[k] ? -internal.local_element(k) - p : 0.;
-        const double moved   = displacement.local_element(k) - last_displacement.local_element(k);
-        work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
-        support_force.local_element(k) = support;
-        increment.local_element(k) += moved;
-      }
-    work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
-    budget.external += work;
-    if (broke_in_segment)
-      budget.dissipated += work - (strain_energy - budget.strain);
-    budget.strain     = strain_energy;
-    broke_in_segment  = false;
-    last_displacement = displacement;
-    last_external     = external;
   }
 
   template class DynamicRelaxation<2>;

@@ -22,21 +22,29 @@ namespace perideal
     prm.add_parameter(
       "Name",
       name,
-      "What is solved: static: equilibrium under the final loads; dynamic relaxation: equilibria under Load "
+      "What is solved: static: equilibrium under the final loads; quasi static: equilibria under Load "
       "steps, geometrically nonlinear, in which bonds break where a fracture energy or critical stretch is "
-      "given; dynamics: motion from t = 0 to End time, explicit, otherwise as dynamic relaxation",
-      Selection("static|dynamic relaxation|dynamics"));
+      "given, by Newton's method; dynamic relaxation: the same by a damped motion; dynamics: motion from "
+      "t = 0 to End time, explicit, otherwise as these",
+      Selection("static|quasi static|dynamic relaxation|dynamics"));
     prm.add_parameter(
       "Tolerance",
       tolerance,
       "Residual over the first residual at which a linear solve ends, or over the norm of loads "
-      "or reactions at which dynamic relaxation does, 0 < tolerance < 1 [-]",
+      "or reactions at which an equilibrium of quasi static or dynamic relaxation does, 0 < tolerance < 1 "
+      "[-]",
       Double());
     prm.add_parameter(
       "Maximum iterations",
       max_iterations,
       "Iterations after which a linear solve has failed, or an equilibrium of dynamic relaxation; there they "
       "are counted anew after every break",
+      Integer(1));
+    prm.add_parameter(
+      "Newton iterations",
+      newton_iterations,
+      "Iterations after which an equilibrium of quasi static has failed, > 0; they are counted "
+      "anew after every break",
       Integer(1));
     prm.add_parameter(
       "Linear solver",
@@ -145,7 +153,7 @@ namespace perideal
     };
 
     /// The system without the forces that push the body along the motions that nothing holds: operators that
-    /// are not symmetric may have such.
+    /// are not symmetric may have such, and those of deformed bodies.
     template <int dim>
     struct BalancedSystem
     {
@@ -170,7 +178,8 @@ namespace perideal
                    const NullSpace<dim>           &null_space,
                    std::unique_ptr<Preconditioner> preconditioner,
                    const bool                      symmetric)
-        : parameters(parameters)
+        : LinearSolver<dim>(parameters.tolerance)
+        , parameters(parameters)
         , choice(choice)
         , system(system)
         , null_space(null_space)
@@ -185,7 +194,7 @@ namespace perideal
       {
         LinearSolve              result;
         Monitor                  monitor(result, progress);
-        dealii::ReductionControl control(parameters.max_iterations, 1e-300, parameters.tolerance);
+        dealii::ReductionControl control(parameters.max_iterations, 1e-300, this->tolerance);
         const ProjectedPreconditioner<dim, Preconditioner> projected(*preconditioner, null_space);
         try
           {
@@ -222,7 +231,7 @@ namespace perideal
       {
         dealii::SolverCG<NodalVector> cg(control);
         cg.connect(monitor);
-        cg.solve(system, solution, source, projected);
+        cg.solve(BalancedSystem<dim>{system, null_space}, solution, source, projected);
       }
 
       template <typename Projected>
@@ -253,7 +262,8 @@ namespace perideal
     {
     public:
       AssembledSolver(const SolverParameters &parameters, const ConstrainedOperator<dim> &system)
-        : parameters(parameters)
+        : LinearSolver<dim>(parameters.tolerance)
+        , parameters(parameters)
       {
         assemble_matrix(system, matrix);
         if (parameters.linear_solver != "direct" && parameters.preconditioner != "none")
@@ -267,7 +277,7 @@ namespace perideal
       {
         LinearSolve           result;
         const double          first = residual_norm(solution, source);
-        dealii::SolverControl control(parameters.max_iterations, parameters.tolerance * first);
+        dealii::SolverControl control(parameters.max_iterations, this->tolerance * first);
         result.residuals.push_back(1.);
         try
           {
@@ -287,7 +297,7 @@ namespace perideal
         result.residuals.push_back(last / first);
         result.iterations = parameters.linear_solver == "direct" ? 1 : control.last_step();
         // Trilinos judges by its recursive residual, which may lag a little.
-        result.converged = last <= 10. * parameters.tolerance * first;
+        result.converged = last <= 10. * this->tolerance * first;
         return result;
       }
 

@@ -135,7 +135,7 @@ namespace perideal
 
     /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
     void check_dynamics() const;
-    void check_relaxation() const;
+    void check_nonlinear_statics() const;
     void check_statics() const;
     /// @throws InputError on prescribed or initial velocities.
     void check_no_motion() const;

@@ -24,9 +24,11 @@
 #include <perideal/operators/missing_bonds.h>
 #include <perideal/operators/null_space.h>
 #include <perideal/operators/relative_damping.h>
+#include <perideal/operators/tangent_operator.h>
 #include <perideal/operators/taylor_ghosts.h>
 #include <perideal/quadrature/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
+#include <perideal/solvers/tangent_solver.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -91,11 +93,15 @@ namespace perideal
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;
     std::unique_ptr<LinearSolver<dim>>        linear_solver;
+    /// Where Newton's method seeks equilibria.
+    std::shared_ptr<TangentOperator<dim>>     tangent;
+    std::unique_ptr<ConstrainedOperator<dim>> tangent_system;
+    std::unique_ptr<TangentSolver<dim>>       tangent_solver;
 
     /// Where the scene asks for some.
     std::unique_ptr<ArealForceDensity<dim>> areal_forces;
 
-    // Dynamics have these, and relaxation those of failure.
+    // Dynamics have these, and nonlinear equilibria those of failure.
     std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
     std::vector<Precrack<dim>>              precracks;
     std::unique_ptr<NoFailZones<dim>>       no_fail_zones;

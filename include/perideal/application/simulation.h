@@ -8,7 +8,7 @@
 #include <perideal/output/checkpoint.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/history.h>
-#include <perideal/solvers/dynamic_relaxation.h>
+#include <perideal/solvers/equilibrium_path.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <deal.II/base/conditional_ostream.h>
@@ -71,7 +71,9 @@ namespace perideal
     void                add_taylor_ghosts();
     /// Transfer functions, where the scene has them. Collective.
     void make_transfer();
-    void set_up_solver();
+    void                set_up_solver();
+    /// Chooses the preconditioner for a number of solves, and assembles what it needs. Collective.
+    PreconditionerChoice prepare_preconditioner(const unsigned int n_solves);
 
     /// Whether prescribed displacements hold nodes, and not images or faces.
     bool by_nodes() const;
@@ -121,7 +123,7 @@ namespace perideal
     void                                        write_fields(const unsigned int number, const double time);
     void                                        compare_at_end(const double time);
 
-    // Failure, of relaxation and dynamics.
+    // Failure, of nonlinear equilibria and dynamics.
     void prepare_cracks();
     void make_cracks_and_limits();
     /// Whether precracks cut a bond; empty where there are none.
@@ -133,12 +135,17 @@ namespace perideal
     /// The tips of cracks, in the row of the history. Collective.
     void record_crack_tips(const GlobalIndex n_broken, const double time);
 
-    // Relaxation.
+    // Equilibria of the nonlinear force, by dynamic relaxation or Newton's method.
     void run_relaxation();
-    void relax_step(const unsigned int number, DynamicRelaxation<dim> &relaxation);
-    void record_relaxation(const unsigned int            number,
-                           const RelaxedStep            &result,
-                           const DynamicRelaxation<dim> &relaxation);
+    void run_quasi_static();
+    /// The tangent and what solves with it, in the body before anything is cut.
+    void set_up_tangent();
+    /// Load steps, with what they leave behind.
+    void run_load_steps(EquilibriumPath<dim> &path);
+    void equilibrium_step(const unsigned int number, EquilibriumPath<dim> &path);
+    void record_equilibrium(const unsigned int          number,
+                            const EquilibriumStep      &result,
+                            const EquilibriumPath<dim> &path);
 
     // Dynamics.
     void   run_dynamics();
@@ -170,7 +177,7 @@ namespace perideal
     Timings                    timings;
     SceneState<dim>            scene;
     NodalVector                displacement, external_force;
-    /// Of dynamics or relaxation so far, which their drift is measured by [J].
+    /// Of dynamics or nonlinear equilibria so far, which their drift is measured by [J].
     double largest_energy = 0;
     /// Times in succession at which more than half of that was missing.
     unsigned int rows_without_balance = 0;

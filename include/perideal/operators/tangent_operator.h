@@ -15,7 +15,8 @@ namespace perideal
    * magnitude m = sum_a weight[a]_j A_a + stiffness eps and g = m |xi|/|y_j - y_i|, a bond's force m p
    * changes under d u by
    *
-   *     dF = ( sum_a weight[a]_j dA_a + k' p.(du_j - du_i) ) p + g (du_j - du_i),   k' = stiffness - g/|xi|^2,
+   *     dF = ( sum_a weight[a]_j dA_a + k' p.(du_j - du_i) ) p + g (du_j - du_i),   k' = stiffness -
+   * g/|xi|^2,
    *
    * where the sums of families change by d s_a = sum_j sum[a]_j p.(du_j - du_i). Bonds that were cut or
    * broke carry nothing.

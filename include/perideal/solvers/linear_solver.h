@@ -26,6 +26,8 @@ namespace perideal
     std::string  preconditioner = "automatic";
     std::string  auxiliary_mesh = "automatic";
     unsigned int load_steps     = 1;
+    /// Newton iterations of an equilibrium.
+    unsigned int newton_iterations = 25;
 
     /// Of dynamics [s]; step 0: chosen.
     double end_time = 0, time_step = 0;
@@ -39,6 +41,9 @@ namespace perideal
 
     bool is_dynamic() const { return name == "dynamics"; }
     bool is_relaxation() const { return name == "dynamic relaxation"; }
+    bool is_quasi_static() const { return name == "quasi static"; }
+    /// Equilibria of the nonlinear force.
+    bool is_nonlinear_static() const { return is_relaxation() || is_quasi_static(); }
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError on choices that do not go together.
@@ -86,6 +91,17 @@ namespace perideal
 
     /// "cg" with its preconditioner and the like, for the banner.
     virtual std::string name() const = 0;
+
+    /// From now on solves end at this residual over the first one.
+    void set_tolerance(const double value) { tolerance = value; }
+
+  protected:
+    explicit LinearSolver(const double tolerance)
+      : tolerance(tolerance)
+    {
+    }
+
+    double tolerance;
   };
 
   /// Chooses the solver: CG where the operator is symmetric, else GMRES, unless

@@ -24,6 +24,7 @@ namespace
                const LoadParameters                 &text,
                const std::vector<ElasticSolid<dim>> &materials)
       : body(mesh)
+      , faces(find_boundary_faces(mesh, body.nodes))
       , loads(text)
       , boundaries(resolve_boundaries(mesh, loads))
       , solid_of([materials](const dealii::types::material_id id) { return materials[id]; })
@@ -48,7 +49,7 @@ namespace
         for (int d = 0; d < dim; ++d)
           displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
       compute_nodal_forces(
-        body.nodes, find_boundary_faces(mesh, body.nodes), *gradient, loads, boundaries, 1., external);
+        body.nodes, faces, *gradient, loads, boundaries, 1., external);
       bonds->internal_force(force, displacement);
       double size = 0, worst = 0;
       for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
@@ -63,6 +64,7 @@ namespace
     }
 
     test::Body<dim>                                      body;
+    std::vector<BoundaryFace<dim>>                       faces;
     Loads<dim>                                           loads;
     std::vector<std::vector<dealii::types::boundary_id>> boundaries;
     SolidOf<dim>                                         solid_of;

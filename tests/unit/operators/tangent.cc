@@ -29,10 +29,9 @@ namespace
       parameters.resolve(dim);
       const ElasticConstants own = parameters.constants_of_model(
         {1., 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain});
-      weights =
-        weigh_bonds<dim>(body.families,
-                         *create_model<dim>(parameters, 1.),
-                         [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
+      weights                                              = weigh_bonds<dim>(body.families,
+                                 *create_model<dim>(parameters, 1.),
+                                 [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
       const std::shared_ptr<const BondWeights<dim>> shared = weights;
       bonds                                                = create_bond_force<dim>(*weights);
       tangent                                              = create_tangent<dim>(shared);
@@ -50,9 +49,10 @@ namespace
         {
           const auto &x = body.nodes.position[i];
           for (int d = 0; d < dim; ++d)
-            displacement.local_element(dim * i + d) =
-              (d == 0 ? 0.1 * x[0] - 0.2 * x[1] : d == 1 ? 0.2 * x[0] - 0.05 * x[1] : 0.08 * x[0]) +
-              0.02 * body.nodes.spacing[i] * test::scatter(x, d);
+            displacement.local_element(dim * i + d) = (d == 0 ? 0.1 * x[0] - 0.2 * x[1] :
+                                                       d == 1 ? 0.2 * x[0] - 0.05 * x[1] :
+                                                                0.08 * x[0]) +
+                                                      0.02 * body.nodes.spacing[i] * test::scatter(x, d);
         }
     }
 
@@ -256,11 +256,12 @@ namespace
       body.tangent->linearise(*body.bonds);
       const std::size_t   n = body.n_unknowns();
       std::vector<double> matrix(n * n, 0.), all(n * n);
-      body.tangent->assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-        for (std::size_t r = 0; r < unknowns.size(); ++r)
-          for (std::size_t c = 0; c < unknowns.size(); ++c)
-            matrix[unknowns[r] * n + unknowns[c]] += values[r * unknowns.size() + c];
-      });
+      body.tangent->assemble(
+        [&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
+          for (std::size_t r = 0; r < unknowns.size(); ++r)
+            for (std::size_t c = 0; c < unknowns.size(); ++c)
+              matrix[unknowns[r] * n + unknowns[c]] += values[r * unknowns.size() + c];
+        });
       dealii::Utilities::MPI::sum(matrix, MPI_COMM_WORLD, all);
       const auto        blocks = body.tangent->diagonal_blocks();
       const GlobalIndex first  = dim * body.body.nodes.first_global;

@@ -134,8 +134,8 @@ namespace
             for (LocalIndex i = 0; i < held.body.nodes.size(); ++i)
               for (int d = 0; d < dim; ++d)
                 held.load.local_element(dim * i + d) = (2 - d) * 3e-8 * held.body.nodes.volume[i];
-          auto              relaxation = held.relaxation({2e-8, 5000, false});
-          const RelaxedStep step       = relaxation.relax(held.load, 1., no_progress);
+          auto                  relaxation = held.relaxation({2e-8, 5000, false});
+          const EquilibriumStep step       = relaxation.step(held.load, 1., no_progress);
           EXPECT_TRUE(step.converged) << step.residuals.back();
           EXPECT_GT(step.iterations, 20u);
           // Measured 5e-7 at most.
@@ -158,11 +158,11 @@ TEST(DynamicRelaxation, RestsAtOnceInEquilibrium)
     {
       HeldBody<2> held(*mesh, variant, {condition("0", {"0", "0"}), condition("1", {"1e-3*min(t, 1)"})});
       auto        relaxation = held.relaxation();
-      EXPECT_EQ(relaxation.relax(held.load, 0., no_progress).iterations, 0u);
+      EXPECT_EQ(relaxation.step(held.load, 0., no_progress).iterations, 0u);
       EXPECT_EQ(relaxation.displacement.linfty_norm(), 0.);
-      EXPECT_GT(relaxation.relax(held.load, 1., no_progress).iterations, 20u);
+      EXPECT_GT(relaxation.step(held.load, 1., no_progress).iterations, 20u);
       const NodalVector solution = relaxation.displacement;
-      EXPECT_EQ(relaxation.relax(held.load, 1., no_progress).iterations, 0u);
+      EXPECT_EQ(relaxation.step(held.load, 1., no_progress).iterations, 0u);
       EXPECT_EQ(difference(relaxation.displacement, solution), 0.);
 
       // Carried off with its support: what rounding makes of the forces does not count.
@@ -173,7 +173,7 @@ TEST(DynamicRelaxation, RestsAtOnceInEquilibrium)
           rest.displacement.local_element(2 * i)     = 3.;
           rest.displacement.local_element(2 * i + 1) = -2.;
         }
-      const RelaxedStep step = rest.relax(carried.load, 1., no_progress);
+      const EquilibriumStep step = rest.step(carried.load, 1., no_progress);
       EXPECT_TRUE(step.converged);
       EXPECT_EQ(step.iterations, 0u);
     }
@@ -193,7 +193,7 @@ TEST(DynamicRelaxation, FollowsLoadSteps)
           held.load = 0.;
           for (LocalIndex i = 0; i < held.body.nodes.size(); ++i)
             held.load.local_element(2 * i + 1) = 1e-4 * n * held.body.nodes.volume[i];
-          const RelaxedStep step = relaxation.relax(held.load, 0.25 * n, no_progress);
+          const EquilibriumStep step = relaxation.step(held.load, 0.25 * n, no_progress);
           ASSERT_TRUE(step.converged);
           if (n == 1)
             first = step.iterations;
@@ -218,19 +218,19 @@ TEST(DynamicRelaxation, EnlargesMassesThatAreTooSmall)
       HeldBody<2>          held(*mesh, variant, {condition("0", {"0", "0"}), condition("1", {"1e-3"})});
       const auto           soft = held.make_system(held.weigh(variant, 0.1));
       DynamicRelaxation<2> misled(*held.bonds, *soft, held.held, held.loads, {1e-8, 5000, false});
-      EXPECT_TRUE(misled.relax(held.load, 1., no_progress).converged);
+      EXPECT_TRUE(misled.step(held.load, 1., no_progress).converged);
       auto right = held.relaxation();
-      EXPECT_TRUE(right.relax(held.load, 1., no_progress).converged);
+      EXPECT_TRUE(right.step(held.load, 1., no_progress).converged);
       EXPECT_LE(difference(misled.displacement, right.displacement), 1e-6);
     }
 }
 
 TEST(DynamicRelaxation, ReportsFailure)
 {
-  const auto        mesh = test::make_box<2>({10, 8}, {1., 0.8}, 0.2);
-  HeldBody<2>       held(*mesh, variants[3], {condition("0", {"0", "0"}), condition("1", {"1e-3"})});
-  auto              relaxation = held.relaxation({1e-8, 7, false});
-  const RelaxedStep step       = relaxation.relax(held.load, 1., no_progress);
+  const auto            mesh = test::make_box<2>({10, 8}, {1., 0.8}, 0.2);
+  HeldBody<2>           held(*mesh, variants[3], {condition("0", {"0", "0"}), condition("1", {"1e-3"})});
+  auto                  relaxation = held.relaxation({1e-8, 7, false});
+  const EquilibriumStep step       = relaxation.step(held.load, 1., no_progress);
   EXPECT_FALSE(step.converged);
   EXPECT_EQ(step.iterations, 7u);
   EXPECT_EQ(step.residuals.size(), 8u);
@@ -254,7 +254,7 @@ TEST(DynamicRelaxation, BreaksWhereTheBodyIsWeakest)
       GlobalIndex         broken = 0;
       for (unsigned int n = 1; n <= 10; ++n)
         {
-          const RelaxedStep step = relaxation.relax(held.load, 0.1 * n, no_progress);
+          const EquilibriumStep step = relaxation.step(held.load, 0.1 * n, no_progress);
           ASSERT_TRUE(step.converged) << n << ", residual " << step.residuals.back();
           broken += step.broken;
           reactions.push_back(held.held.sum_by_condition(relaxation.reaction(), MPI_COMM_WORLD)[1][0]);

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_equilibrium_path_h
+#define perideal_solvers_equilibrium_path_h
+
+#include <perideal/boundary/held_nodes.h>
+#include <perideal/operators/bond_force.h>
+#include <perideal/operators/constrained_operator.h>
+#include <perideal/solvers/explicit_dynamics.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// What the search for the equilibrium of one load step did.
+  struct EquilibriumStep
+  {
+    bool         converged  = false;
+    unsigned int iterations = 0;
+    /// Of linear solves, all together; of solvers that have such.
+    unsigned int linear_iterations = 0;
+    /// Bonds of all ranks that broke.
+    GlobalIndex broken = 0;
+    /// Relative residual norms, by iteration.
+    std::vector<double> residuals;
+    /// Why it went no further, where the solver knows; else empty.
+    std::string problem;
+  };
+
+  /**
+   * The equilibria of the nonlinear force of bonds along load steps, whatever finds them: when the body is
+   * at rest, when bonds break, and what became of the work.
+   *
+   * Bonds are judged at equilibrium only, since what is between is no motion of the body: where the
+   * residual has come below 1e-4, and again below the tolerance, all bonds beyond their limit break at
+   * once; equilibrium is then sought again, until none breaks.
+   */
+  template <int dim>
+  class EquilibriumPath
+  {
+  public:
+    struct Controls
+    {
+      /**
+       * Residual norm of the free components over that of the loads or of the reactions at which
+       * the body is at rest; the largest of these norms now and at any earlier equilibrium counts, so
+       * that a body that broke can come to rest. What rounding the positions makes of forces always will do.
+       */
+      double tolerance = 1e-8;
+      /// Iterations after which an equilibrium has failed; counted anew after every break.
+      unsigned int max_iterations = 5000;
+      /// Whether bonds are judged.
+      bool bonds_break = false;
+    };
+
+    virtual ~EquilibriumPath() = default;
+
+    /// Called with the iteration and the relative residual.
+    using Progress = std::function<void(const unsigned int, const double)>;
+
+    /**
+     * Goes on from where the last step ended to the equilibrium at a time. A failure is reported, not
+     * thrown. Collective.
+     * @param external force of the loads at that time [N]
+     */
+    EquilibriumStep step(const NodalVector &external, const double time, const Progress &progress);
+
+    /**
+     * Energies at the last equilibrium, none kinetic or damped. External work is summed by the trapezoidal
+     * rule over all equilibria, those before bonds broke included; dissipated is what came of work and
+     * strain energy between a break and the next equilibrium. The rest is the error of the rule.
+     */
+    const EnergyBudget &energy() const { return budget; }
+    /// Forces of the supports at the last equilibrium [N], zero in free components.
+    const NodalVector &reaction() const { return support_force; }
+    GlobalIndex        n_broken() const { return broken; }
+
+    /// At the last equilibrium, or where a failed search stopped [m].
+    NodalVector displacement;
+
+  protected:
+    /// The arguments but the system, which gives the nodes, must outlive this object.
+    EquilibriumPath(BondForce<dim>                 &bonds,
+                    const ConstrainedOperator<dim> &system,
+                    const HeldNodes<dim>           &held,
+                    const Loads<dim>               &loads,
+                    const Controls                 &controls);
+
+    /// Squared norms of forces, of all ranks.
+    struct Norms
+    {
+      double residual, reaction, load;
+    };
+
+    /// Begins a step; the forces are computed next.
+    virtual void start_step(const double time) = 0;
+    /// Norms at the present state. Collective.
+    virtual Norms measure(const NodalVector &external) = 0;
+    /// False while held components are not yet where they belong.
+    virtual bool is_in_place() const { return true; }
+    /// One iteration, its forces included; false, with the problem, where there is none. Collective.
+    virtual bool iterate(const NodalVector &external, EquilibriumStep &result) = 0;
+    /// After bonds broke.
+    virtual void forget_motion() {}
+
+    void compute_forces();
+
+    /// Positions y are rounded by eps |y|: forgives what that makes of forces in a body whose nodes
+    /// have these stiffnesses by component [N/m].
+    void set_rounding(const NodalVector &stiffness);
+
+    BondForce<dim>       &bonds;
+    const HeldNodes<dim> &held;
+    const Loads<dim>     &loads;
+    const Controls        controls;
+
+    /// Of the bonds, now and before [N].
+    NodalVector force, earlier_force;
+    /// Norm of the forces that rounding the positions makes [N].
+    double rounding = 0;
+    /// Motion in this step [m].
+    NodalVector increment;
+    bool        broke_in_step = false;
+    /// The square of the largest norm of loads or reactions at an equilibrium [N^2].
+    double largest_load = 0;
+
+  private:
+    /// Judges the bonds; returns how many broke. Collective.
+    GlobalIndex break_bonds(const NodalVector &external);
+    /// Work and energies between the last equilibrium and this one.
+    void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
+
+    std::vector<double> rest_position;
+    /// At the last equilibrium.
+    NodalVector last_displacement, last_external, support_force;
+    bool        broke_in_segment = false;
+
+    EnergyBudget budget;
+    GlobalIndex  broken = 0;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_tangent_solver_h
+#define perideal_solvers_tangent_solver_h
+
+#include <perideal/solvers/linear_solver.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace perideal
+{
+  /**
+   * Solves with a system that changes a little from solve to solve, as tangents do. The preconditioner is
+   * made at first and again when the iterations for a digit have doubled since; the assembled solvers are
+   * made for every solve. Where CG was chosen by itself and fails, since the system is not positive
+   * definite, GMRES is tried.
+   */
+  template <int dim>
+  class TangentSolver
+  {
+  public:
+    /// The solver of the parameters ("automatic", "cg", ...) for the system as it is. Collective.
+    using Create = std::function<std::unique_ptr<LinearSolver<dim>>(const SolverParameters &)>;
+
+    /// @throws what @p create does. Collective.
+    TangentSolver(const SolverParameters &parameters, const Create &create);
+
+    /// @param solution start and result; a failed solve is reported, not thrown. Collective.
+    /// @param tolerance residual over the first residual
+    LinearSolve solve(NodalVector &solution, const NodalVector &source, const double tolerance);
+
+    std::string name() const { return solver->name(); }
+
+  private:
+    /// Makes the solver for the present system; where that cannot be, one that there is stays.
+    bool renew(std::unique_ptr<LinearSolver<dim>> &solver, const SolverParameters &parameters) const;
+
+    const SolverParameters             parameters;
+    const Create                       create;
+    std::unique_ptr<LinearSolver<dim>> solver;
+    bool                               is_new = true, is_slow = false;
+    /// Iterations a digit after the last set-up.
+    double cost_when_new = 0;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/report.h>
+#include <perideal/application/simulation.h>
+#include <perideal/solvers/newton.h>
+
+#include <utility>
+
+// Simulation: equilibria of the nonlinear force by Newton's method.
+
+namespace perideal
+{
+  template <int dim>
+  void Simulation<dim>::set_up_tangent()
+  {
+    const Timings::Scope part(timings, "setup: preconditioner");
+    scene.tangent = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
+    scene.tangent_system = std::make_unique<ConstrainedOperator<dim>>(
+      scene.tangent, scene.mirror, *scene.nodes, scene.held.mask());
+    // A load step takes about four solves.
+    const auto choice    = prepare_preconditioner(4 * parameters.solver.load_steps);
+    scene.tangent_solver = std::make_unique<TangentSolver<dim>>(
+      parameters.solver, [this, choice](const SolverParameters &solver) {
+        return create_linear_solver(solver,
+                                    choice,
+                                    *scene.tangent_system,
+                                    scene.null_space,
+                                    *scene.nodes,
+                                    scene.auxiliary_fem.get());
+      });
+  }
+
+  template <int dim>
+  void Simulation<dim>::run_quasi_static()
+  {
+    prepare_cracks();
+    find_free_motions();
+    prepare_comparisons();
+    weigh_bonds();
+    {
+      const Timings::Scope scope(timings, "setup");
+      scene.force = create_bond_force<dim>(*scene.weights);
+      set_up_tangent();
+      make_cracks_and_limits();
+    }
+    summary["solver"]["name"] = "quasi static, " + scene.tangent_solver->name();
+    announce();
+    check_loads();
+    open_outputs();
+    typename NewtonSolver<dim>::Controls controls;
+    controls.tolerance      = parameters.solver.tolerance;
+    controls.max_iterations = parameters.solver.newton_iterations;
+    controls.bonds_break    = can_break(parameters);
+    NewtonSolver<dim> newton(*scene.force,
+                             *scene.tangent,
+                             *scene.tangent_system,
+                             *scene.tangent_solver,
+                             scene.held,
+                             scene.loads,
+                             scene.null_space,
+                             controls);
+    run_load_steps(newton);
+  }
+
+  template void Simulation<2>::run_quasi_static();
+  template void Simulation<3>::run_quasi_static();
+} // namespace perideal

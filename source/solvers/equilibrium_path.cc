@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/solvers/equilibrium_path.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Relative residual at which bonds are judged.
+    constexpr double judge_tolerance = 1e-4;
+  } // namespace
+
+  template <int dim>
+  EquilibriumPath<dim>::EquilibriumPath(BondForce<dim>                 &bonds,
+                                        const ConstrainedOperator<dim> &system,
+                                        const HeldNodes<dim>           &held,
+                                        const Loads<dim>               &loads,
+                                        const Controls                 &controls)
+    : bonds(bonds)
+    , held(held)
+    , loads(loads)
+    , controls(controls)
+  {
+    for (NodalVector *vector : {&displacement,
+                                &force,
+                                &earlier_force,
+                                &increment,
+                                &last_displacement,
+                                &last_external,
+                                &support_force})
+      bonds.initialize(*vector);
+    bonds.judge_bonds(false);
+    const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
+    for (LocalIndex i = 0; i < system.n_nodes(); ++i)
+      for (int d = 0; d < dim; ++d)
+        rest_position.push_back(nodes.position[i][d]);
+  }
+
+  template <int dim>
+  EquilibriumStep
+  EquilibriumPath<dim>::step(const NodalVector &external, const double time, const Progress &progress)
+  {
+    start_step(time);
+    increment     = 0.;
+    broke_in_step = false;
+    EquilibriumStep result;
+    unsigned int    since_break = 0;
+    bool            judged      = !controls.bonds_break;
+    compute_forces();
+    while (true)
+      {
+        const Norms  norms     = measure(external);
+        const double reference = std::sqrt(std::max({norms.reaction, norms.load, largest_load}));
+        const double residual  = std::sqrt(norms.residual);
+        result.residuals.push_back(reference > 0 ? residual / reference : (residual > 0 ? 1. : 0.));
+        progress(result.iterations, result.residuals.back());
+        const bool at_rest =
+          is_in_place() && residual <= std::max(controls.tolerance * reference, rounding);
+        const bool nearly = is_in_place() && !judged && residual <= judge_tolerance * reference;
+        if (controls.bonds_break && (at_rest || nearly))
+          {
+            const GlobalIndex now = break_bonds(external);
+            result.broken += now;
+            judged = now == 0;
+            if (now > 0)
+              {
+                largest_load = std::max({largest_load, norms.reaction, norms.load});
+                since_break  = 0;
+                continue;
+              }
+          }
+        if (at_rest)
+          {
+            largest_load = std::max({largest_load, norms.reaction, norms.load});
+            balance(external, force, bonds.strain_energy());
+            result.converged = true;
+            return result;
+          }
+        if (since_break == controls.max_iterations || !std::isfinite(residual))
+          return result;
+        if (!iterate(external, result))
+          return result;
+        ++since_break;
+        ++result.iterations;
+      }
+  }
+
+  template <int dim>
+  void EquilibriumPath<dim>::set_rounding(const NodalVector &stiffness)
+  {
+    // Forces that stay were measured to be twice eps |y| times the masses of dynamic relaxation at most.
+    double sum = 0;
+    for (std::size_t k = 0; k < rest_position.size(); ++k)
+      {
+        const double y = stiffness.local_element(k) * (rest_position[k] + displacement.local_element(k));
+        sum += y * y;
+      }
+    sum      = dealii::Utilities::MPI::sum(sum, displacement.get_mpi_communicator());
+    rounding = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+  }
+
+  template <int dim>
+  void EquilibriumPath<dim>::compute_forces()
+  {
+    earlier_force.swap(force);
+    bonds.compute(force, displacement);
+  }
+
+  template <int dim>
+  GlobalIndex EquilibriumPath<dim>::break_bonds(const NodalVector &external)
+  {
+    bonds.judge_bonds(true);
+    compute_forces();
+    bonds.judge_bonds(false);
+    const GlobalIndex now = bonds.n_broken_now();
+    if (now == 0)
+      return 0;
+    forget_motion();
+    // At rest, the energy that goes at once is that of the weights lost.
+    NodalVector no_velocity(force);
+    no_velocity = 0.;
+    balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
+    broken += now;
+    broke_in_step = broke_in_segment = true;
+    return now;
+  }
+
+  template <int dim>
+  void EquilibriumPath<dim>::balance(const NodalVector &external,
+                                     const NodalVector &internal,
+                                     const double       strain_energy)
+  {
+    const auto &is_held = held.mask();
+    double      work    = 0;
+    for (std::size_t k = 0; k < is_held.size(); ++k)
+      {
+        const double p       = external.local_element(k),
+                     support = is_held[k] ? -internal.local_element(k) - p : 0.;
+        const double moved   = displacement.local_element(k) - last_displacement.local_element(k);
+        work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
+        support_force.local_element(k) = support;
+        increment.local_element(k) += moved;
+      }
+    work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
+    budget.external += work;
+    if (broke_in_segment)
+      budget.dissipated += work - (strain_energy - budget.strain);
+    budget.strain     = strain_energy;
+    broke_in_segment  = false;
+    last_displacement = displacement;
+    last_external     = external;
+  }
+
+  template class EquilibriumPath<2>;
+  template class EquilibriumPath<3>;
+} // namespace perideal

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/solvers/newton.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Share of |d.r| at the start that a step may leave.
+    constexpr double slope_left = 0.5;
+    /// Forces of one search.
+    constexpr unsigned int max_trials = 20;
+  } // namespace
+
+  template <int dim>
+  NewtonSolver<dim>::NewtonSolver(BondForce<dim>                 &bonds,
+                                  TangentOperator<dim>           &tangent,
+                                  const ConstrainedOperator<dim> &system,
+                                  TangentSolver<dim>             &linear,
+                                  const HeldNodes<dim>           &held,
+                                  const Loads<dim>               &loads,
+                                  const NullSpace<dim>           &null_space,
+                                  const Controls                 &controls)
+    : EquilibriumPath<dim>(bonds, system, held, loads, controls)
+    , tangent(tangent)
+    , linear(linear)
+    , null_space(null_space)
+  {
+    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness})
+      bonds.initialize(*vector);
+    system.initialize(residual);
+    system.initialize(correction);
+    // About the masses of dynamic relaxation, which rounding is known for.
+    const auto blocks = tangent.diagonal_blocks();
+    for (LocalIndex i = 0; i < system.n_nodes(); ++i)
+      for (int d = 0; d < dim; ++d)
+        rest_stiffness.local_element(dim * i + d) = 0.5 * blocks[i][d][d];
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::start_step(const double time)
+  {
+    held_increment = displacement;
+    held.set_boundary_values(this->loads, time, held_increment);
+    held_increment -= displacement;
+    in_place = held_increment.linfty_norm() == 0.;
+    this->set_rounding(rest_stiffness);
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::compute_residual(const NodalVector &external)
+  {
+    const auto &is_held = held.mask();
+    for (std::size_t k = 0; k < is_held.size(); ++k)
+      residual.local_element(k) = is_held[k] ? 0. : force.local_element(k) + external.local_element(k);
+    null_space.project(residual);
+  }
+
+  template <int dim>
+  typename EquilibriumPath<dim>::Norms NewtonSolver<dim>::measure(const NodalVector &external)
+  {
+    compute_residual(external);
+    const auto           &is_held = held.mask();
+    std::array<double, 2> squares = {};
+    for (std::size_t k = 0; k < is_held.size(); ++k)
+      {
+        const double p = external.local_element(k), total = force.local_element(k) + p;
+        squares[0] += is_held[k] ? total * total : 0.;
+        squares[1] += p * p;
+      }
+    if (!in_place)
+      {
+        // The supports pull before they move.
+        tangent.linearise(this->bonds);
+        tangent.vmult(correction, held_increment);
+        for (std::size_t k = 0; k < is_held.size(); ++k)
+          if (!is_held[k])
+            residual.local_element(k) -= correction.local_element(k);
+        null_space.project(residual);
+      }
+    const MPI_Comm communicator = displacement.get_mpi_communicator();
+    norms.residual              = residual.norm_sqr();
+    norms.reaction              = dealii::Utilities::MPI::sum(squares[0], communicator);
+    norms.load                  = dealii::Utilities::MPI::sum(squares[1], communicator);
+    return norms;
+  }
+
+  template <int dim>
+  double NewtonSolver<dim>::relative_tolerance() const
+  {
+    const double reference = std::max({norms.reaction, norms.load, this->largest_load});
+    const double relative  = reference > 0 ? std::sqrt(norms.residual / reference) : 1.;
+    return std::max({std::min(1e-3, 0.1 * relative), 0.1 * this->controls.tolerance / relative, 1e-12});
+  }
+
+  template <int dim>
+  bool NewtonSolver<dim>::iterate(const NodalVector &external, EquilibriumStep &result)
+  {
+    if (in_place)
+      tangent.linearise(this->bonds);
+    correction                = 0.;
+    const LinearSolve solving = linear.solve(correction, residual, std::min(relative_tolerance(), 0.5));
+    result.linear_iterations += solving.iterations;
+    if (!solving.converged)
+      {
+        result.problem = "the linear solver (" + linear.name() + ") did not converge";
+        return false;
+      }
+    if (in_place && search(external))
+      return true;
+    if (in_place)
+      {
+        result.problem = "no part of a step lowers the residual";
+        return false;
+      }
+    displacement += correction;
+    displacement += held_increment;
+    in_place = true;
+    this->compute_forces();
+    return true;
+  }
+
+  template <int dim>
+  bool NewtonSolver<dim>::search(const NodalVector &external)
+  {
+    const double norm = residual.l2_norm(), slope = correction * residual;
+    start        = displacement;
+    double share = 1., low = 0., low_slope = slope, high = 0., high_slope = 0.;
+    for (unsigned int trial = 0; trial < max_trials; ++trial)
+      {
+        displacement = start;
+        displacement.add(share, correction);
+        this->compute_forces();
+        compute_residual(external);
+        const double now = residual.l2_norm(), slope_now = correction * residual;
+        const bool   is_finite = std::isfinite(now) && std::isfinite(slope_now);
+        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= this->rounding ||
+                          (slope > 0 && std::abs(slope_now) <= slope_left * slope)))
+          return true;
+        if (!is_finite || slope <= 0)
+          share *= is_finite ? 0.5 : 0.25;
+        else if (slope_now < 0)
+          {
+            high       = share;
+            high_slope = slope_now;
+          }
+        else
+          {
+            // The energy still falls, by all that can be tried.
+            if (high == 0.)
+              return true;
+            low       = share;
+            low_slope = slope_now;
+          }
+        if (is_finite && slope > 0)
+          share = low + (high - low) * std::clamp(low_slope / (low_slope - high_slope), 0.1, 0.9);
+      }
+    displacement = start;
+    this->compute_forces();
+    return false;
+  }
+
+  template class NewtonSolver<2>;
+  template class NewtonSolver<3>;
+} // namespace perideal

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/solvers/tangent_solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  template <int dim>
+  TangentSolver<dim>::TangentSolver(const SolverParameters &parameters, const Create &create)
+    : parameters(parameters)
+    , create(create)
+    , solver(create(parameters))
+  {
+  }
+
+  template <int dim>
+  bool TangentSolver<dim>::renew(std::unique_ptr<LinearSolver<dim>> &target,
+                                 const SolverParameters             &parameters) const
+  {
+    try
+      {
+        target = create(parameters);
+        return true;
+      }
+    catch (const ComputationError &)
+      {
+        // A node that lost its bonds has no block to invert, in the whole body it had one.
+        return false;
+      }
+  }
+
+  template <int dim>
+  LinearSolve
+  TangentSolver<dim>::solve(NodalVector &solution, const NodalVector &source, const double tolerance)
+  {
+    if (parameters.assembles() || is_slow)
+      {
+        is_new  = renew(solver, parameters);
+        is_slow = false;
+      }
+    const NodalVector start(solution);
+    solver->set_tolerance(tolerance);
+    LinearSolve result = solver->solve(solution, source, {});
+    if (parameters.assembles())
+      return result;
+    if (!result.converged && parameters.linear_solver == "automatic")
+      {
+        SolverParameters with_gmres = parameters;
+        with_gmres.linear_solver    = "gmres";
+        std::unique_ptr<LinearSolver<dim>> gmres;
+        if (!renew(gmres, with_gmres))
+          return result;
+        const unsigned int in_vain = result.iterations;
+        solution                   = start;
+        gmres->set_tolerance(tolerance);
+        result = gmres->solve(solution, source, {});
+        result.iterations += in_vain;
+        return result;
+      }
+    // Few iterations say little.
+    const double cost = std::max(result.iterations, 10u) / std::max(-std::log10(tolerance), 1.);
+    if (is_new)
+      cost_when_new = cost;
+    is_new  = false;
+    is_slow = cost > 2 * cost_when_new;
+    return result;
+  }
+
+  template class TangentSolver<2>;
+  template class TangentSolver<3>;
+} // namespace perideal
