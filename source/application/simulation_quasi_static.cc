@@ -13,19 +13,15 @@ namespace perideal
   void Simulation<dim>::set_up_tangent()
   {
     const Timings::Scope part(timings, "setup: preconditioner");
-    scene.tangent = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
+    scene.tangent        = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
     scene.tangent_system = std::make_unique<ConstrainedOperator<dim>>(
       scene.tangent, scene.mirror, *scene.nodes, scene.held.mask());
     // A load step takes about four solves.
-    const auto choice    = prepare_preconditioner(4 * parameters.solver.load_steps);
-    scene.tangent_solver = std::make_unique<TangentSolver<dim>>(
-      parameters.solver, [this, choice](const SolverParameters &solver) {
-        return create_linear_solver(solver,
-                                    choice,
-                                    *scene.tangent_system,
-                                    scene.null_space,
-                                    *scene.nodes,
-                                    scene.auxiliary_fem.get());
+    const auto choice = prepare_preconditioner(4 * parameters.solver.load_steps);
+    scene.tangent_solver =
+      std::make_unique<TangentSolver<dim>>(parameters.solver, [this, choice](const SolverParameters &solver) {
+        return create_linear_solver(
+          solver, choice, *scene.tangent_system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
       });
   }
 

@@ -61,7 +61,7 @@ namespace perideal
              (result.problem.empty() ? "" : ", since " + result.problem) + ", with " +
              std::to_string(n_broken) + " broken bonds\n  advice: " +
              (solver.is_quasi_static() ?
-                "raise Solver/Load steps, so that each moves the body less, or Solver/Newton iterations; see "
+                "raise Solver/Load steps, with loads that grow with t, or Solver/Newton iterations; see "
                 "the residuals in history.h5; a body that buckles or softens may want Solver/Name = dynamic "
                 "relaxation; " +
                   broke_apart + "dynamics" :

@@ -59,9 +59,8 @@ namespace perideal
         const double residual  = std::sqrt(norms.residual);
         result.residuals.push_back(reference > 0 ? residual / reference : (residual > 0 ? 1. : 0.));
         progress(result.iterations, result.residuals.back());
-        const bool at_rest =
-          is_in_place() && residual <= std::max(controls.tolerance * reference, rounding);
-        const bool nearly = is_in_place() && !judged && residual <= judge_tolerance * reference;
+        const bool at_rest = is_in_place() && residual <= std::max(controls.tolerance * reference, rounding);
+        const bool nearly  = is_in_place() && !judged && residual <= judge_tolerance * reference;
         if (controls.bonds_break && (at_rest || nearly))
           {
             const GlobalIndex now = break_bonds(external);

@@ -92,9 +92,9 @@ namespace
     while (n > 0 && residuals[n - 1] < bound)
       --n;
     EXPECT_GE(n, 3u);
-    return n < 3 ? 0. :
-                   std::log(residuals[n - 1] / residuals[n - 2]) /
-                     std::log(residuals[n - 2] / residuals[n - 3]);
+    return n < 3 ?
+             0. :
+             std::log(residuals[n - 1] / residuals[n - 2]) / std::log(residuals[n - 2] / residuals[n - 3]);
   }
 
   const auto clamped = [] { return condition("0", {"0", "0"}); };
@@ -105,7 +105,7 @@ namespace
     for (const Variant &variant : variants)
       {
         SCOPED_TRACE(variant.first + ", " + variant.second);
-        NewtonBody            body(*mesh, variant, {clamped(), condition("1", {"0.4*t", "0.2*t"})}, {1e-12, 25, false});
+        NewtonBody body(*mesh, variant, {clamped(), condition("1", {"0.4*t", "0.2*t"})}, {1e-12, 25, false});
         const EquilibriumStep step = body.newton->step(body.load, 1., no_progress);
         EXPECT_TRUE(step.converged) << step.problem;
         // Below 1e-10, the single precision of the force, 6e-8 of the tangent, makes it linear.
@@ -212,8 +212,8 @@ namespace
 
   TEST(Newton, ReportsFailure)
   {
-    const auto            mesh = test::make_box<2>({8, 4}, {2., 1.}, 0.);
-    NewtonBody            body(*mesh, variants[0], {clamped(), condition("1", {"0.2*t", "0"})}, {1e-8, 1, false});
+    const auto mesh = test::make_box<2>({8, 4}, {2., 1.}, 0.);
+    NewtonBody body(*mesh, variants[0], {clamped(), condition("1", {"0.2*t", "0"})}, {1e-8, 1, false});
     const EquilibriumStep step = body.newton->step(body.load, 1., no_progress);
     EXPECT_FALSE(step.converged);
     EXPECT_EQ(step.iterations, 1u);
