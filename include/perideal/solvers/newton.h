@@ -14,14 +14,15 @@ namespace perideal
    * the first iteration of a step the held components move by their increments, and the free ones by the
    * linear prediction from where the last step ended.
    *
-   * Linear systems are solved to a tenth of the relative residual of the equilibrium, at most to 1e-3, so that
-   * the residual they leave goes with the square of it, below the one that Newton's method leaves itself; no
-   * lower than a tenth of what the tolerance asks for.
+   * Linear systems are solved to a tenth of the relative residual of the equilibrium, at most to 1e-3, so
+   * that the residual they leave goes with the square of it, below the one that Newton's method leaves
+   * itself; no lower than a tenth of what the tolerance asks for.
    *
    * Line search along a step d with the residual r: the whole step is taken where it lowers |r|, or where
    * it halves |d.r|, the slope of the energy, which alone lets slender bodies bend far: their first steps
-   * stretch them. Whole steps alone may take fewer iterations there, or end in an equilibrium far off. Otherwise the step is shortened towards d.r = 0. Where d.r is not positive
-   * at the start, the tangent is not positive definite there and |r| alone counts.
+   * stretch them. Whole steps alone may take fewer iterations there, or end in an equilibrium far off.
+   * Otherwise the step is shortened towards d.r = 0. Where d.r is not positive at the start, the tangent is
+   * not positive definite there and |r| alone counts.
    *
    * The motions that a scene leaves free are taken from residuals and steps, as in statics: in their
    * direction, the balance is that of the undeformed body.
@@ -70,9 +71,9 @@ namespace perideal
     const NullSpace<dim> &null_space;
 
     /// What held components have still to move.
-    NodalVector held_increment;
-    bool        in_place = true;
-    NodalVector residual, correction, start, rest_stiffness;
+    NodalVector                          held_increment;
+    bool                                 in_place = true;
+    NodalVector                          residual, correction, start, rest_stiffness;
     typename EquilibriumPath<dim>::Norms norms = {};
   };
 } // namespace perideal
