@@ -15,13 +15,18 @@ namespace perideal
     const Timings::Scope part(timings, "setup: preconditioner");
     scene.tangent        = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
     scene.tangent_system = std::make_unique<ConstrainedOperator<dim>>(
-      scene.tangent, scene.mirror, *scene.nodes, scene.held.mask());
+      scene.tangent, scene.mirror, scene.unknowns(), scene.held.mask());
     // A load step takes about four solves.
     const auto choice = prepare_preconditioner(4 * parameters.solver.load_steps);
     scene.tangent_solver =
       std::make_unique<TangentSolver<dim>>(parameters.solver, [this, choice](const SolverParameters &solver) {
-        return create_linear_solver(
-          solver, choice, *scene.tangent_system, scene.null_space, *scene.nodes, scene.auxiliary_fem.get());
+        return create_linear_solver(solver,
+                                    choice,
+                                    *scene.tangent_system,
+                                    scene.null_space,
+                                    *scene.nodes,
+                                    scene.auxiliary_fem.get(),
+                                    scene.surface_nodes.get());
       });
   }
 
@@ -30,8 +35,8 @@ namespace perideal
   {
     prepare_cracks();
     find_free_motions();
-    prepare_comparisons();
     weigh_bonds();
+    prepare_comparisons();
     {
       const Timings::Scope scope(timings, "setup");
       scene.force = create_bond_force<dim>(*scene.weights);

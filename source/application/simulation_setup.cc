@@ -305,7 +305,7 @@ namespace perideal
                                                *scene.nodes,
                                                scene.auxiliary_fem.get(),
                                                scene.surface_nodes.get());
-    summary["solver"]["name"] = scene.linear_solver->name();
+    summary["solver"]["name"]   = scene.linear_solver->name();
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \

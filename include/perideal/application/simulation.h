@@ -71,7 +71,7 @@ namespace perideal
     void                add_taylor_ghosts();
     /// Transfer functions, where the scene has them. Collective.
     void make_transfer();
-    void                set_up_solver();
+    void set_up_solver();
     /// Chooses the preconditioner for a number of solves, and assembles what it needs. Collective.
     PreconditionerChoice prepare_preconditioner(const unsigned int n_solves);
 
