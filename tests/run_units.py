@@ -61,6 +61,7 @@ end
 TREATMENTS = [
     ("consistent form", ["Material/Model=extended ordinary", "Material/Form=consistent"], True),
     ("balanced", ["Material/Model=ordinary", "Boundary conditions/Treatment=balanced"], True),
+    ("taylor ghosts", ["Material/Model=ordinary", "Boundary conditions/Treatment=taylor ghosts"], True),
     ("printed, without L", ["Material/Model=ordinary", "Boundary conditions/Treatment=printed",
                             "Boundary conditions/Transfer lambda=0"], True),
     # lambda = 1 N/m^11 makes of L 3e+12 times the traction in millimetres.

@@ -118,14 +118,9 @@ namespace perideal
       complain("the consistent form takes tractions at faces", "automatic for this form");
     if (treatment == "automatic")
       treatment = consistent ? "face" : "layer";
-    if (loads.has_missing_bonds() && solver.name != "static")
-      complain("what missing bonds do follows from linear statics", "automatic | layer for this solver");
-    if (loads.has_missing_bonds() && (model.has_surface_cure() || loads.displacement_treatment == "mirror"))
-      complain("the surface has its missing bonds by other means",
-               "automatic | layer with the surface cure or mirrored nodes");
     if (loads.has_line_to_point() && (model.model != "bond based" || dimension != 3))
       complain("the closed form is that of bond-based peridynamics in 3-D",
-               "automatic | layer | missing bonds | transfer for this scene");
+               "automatic | layer | taylor ghosts | transfer for this scene");
     check_transfer();
   }
 

@@ -16,7 +16,7 @@ namespace perideal
   {
     // Between materials a uniform strain needs forces that no missing bond stands for.
     if (scene.mesh->material_ids.size() > 1)
-      throw InputError("what missing bonds do is known in bodies of one material")
+      throw InputError("what ghosts do is known in bodies of one material")
         .parameter("Boundary conditions/Traction treatment")
         .given(parameters.loads.traction_treatment)
         .allowed("automatic | layer for several cell groups");

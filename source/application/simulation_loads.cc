@@ -16,26 +16,6 @@
 namespace perideal
 {
   template <int dim>
-  void Simulation<dim>::add_missing_bonds()
-  {
-    // Between materials a uniform strain needs forces that no missing bond stands for.
-    if (scene.mesh->material_ids.size() > 1)
-      throw InputError("what missing bonds do is known in bodies of one material")
-        .parameter("Boundary conditions/Traction treatment")
-        .given(parameters.loads.traction_treatment)
-        .allowed("automatic | layer for several cell groups");
-    const Timings::Scope part(timings, "setup: missing bonds");
-    scene.missing_bonds =
-      std::make_shared<MissingBonds<dim>>(scene.bonds,
-                                          scene.gradient,
-                                          find_surface_planes<dim>(*scene.nodes, scene.surface),
-                                          scene.loads,
-                                          scene.condition_boundaries,
-                                          solid_of_model());
-    scene.bonds = scene.missing_bonds;
-  }
-
-  template <int dim>
   void Simulation<dim>::make_transfer()
   {
     const Timings::Scope   part(timings, "setup: transfer functions");
@@ -82,8 +62,6 @@ namespace perideal
                            scene.condition_boundaries,
                            time,
                            force);
-    if (loads.has_missing_bonds())
-      scene.missing_bonds->add_tractions(given, time, force);
     if (scene.transfer)
       scene.transfer->add_tractions(given, scene.condition_boundaries, time, force);
     if constexpr (dim == 3)
@@ -172,14 +150,12 @@ namespace perideal
     displacement = 0.;
   }
 
-  template void Simulation<2>::add_missing_bonds();
   template void Simulation<2>::make_transfer();
   template void Simulation<2>::apply_forces(const double);
   template void Simulation<2>::set_tractions(const Loads<2> &, const double, NodalVector &) const;
   template void Simulation<2>::apply_loads(const double);
   template void Simulation<2>::check_loads();
   template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
-  template void                             Simulation<3>::add_missing_bonds();
   template void                             Simulation<3>::make_transfer();
   template void                             Simulation<3>::apply_forces(const double);
   template void Simulation<3>::set_tractions(const Loads<3> &, const double, NodalVector &) const;

@@ -119,8 +119,7 @@ namespace perideal
           total.moment += applied.moment;
           Json &entry      = result["conditions"][condition.name];
           entry["applied"] = describe(applied);
-          // What missing bonds do to nodes stands for tractions, but is none of the surface's forces alone.
-          if (scene.missing_bonds || gross == 0)
+          if (gross == 0)
             continue;
           Loads<dim> alone = scene.loads;
           alone.body_force = {};
@@ -154,7 +153,7 @@ namespace perideal
     result["total"]["applied"] = describe(total);
     if (scene.ghosts)
       result["total"]["transferred"] = describe(by_faces);
-    else if (!scene.missing_bonds)
+    else
       result["total"]["transferred"] = describe(sum_of(add_up(*scene.nodes, external_force), communicator));
     return result;
   }

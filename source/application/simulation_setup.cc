@@ -162,8 +162,7 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const auto           solid_of = solid_of_model();
-    if (parameters.model.is_linear_only() || parameters.loads.has_missing_bonds() ||
-        needs_gradient(parameters.field_names()))
+    if (parameters.model.is_linear_only() || needs_gradient(parameters.field_names()))
       make_gradient();
     if (parameters.model.is_consistent())
       {
@@ -193,8 +192,6 @@ namespace perideal
           scene.bonds =
             std::make_shared<SurfaceCure<dim>>(scene.bonds, scene.gradient, scene.nodes->volume, solid_of);
       }
-    if (parameters.loads.has_missing_bonds())
-      add_missing_bonds();
     if (parameters.loads.has_taylor_ghosts())
       add_taylor_ghosts();
     if (parameters.loads.has_transfer())

@@ -57,8 +57,6 @@ namespace perideal
     if (model.has_surface_cure())
       complain("the surface cure has no gradient at nodes on the surface",
                others + "; or another Material/Form");
-    if (loads.has_missing_bonds())
-      complain("bonds are missing behind a surface without nodes", others + " with missing bonds");
     if (can_break(*this) || !precracks.cracks.empty())
       complain("what breaks is told by the nodes of cells", "automatic | layer where bonds break or are cut");
     if (!areal_forces.points.empty())

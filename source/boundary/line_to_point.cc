@@ -107,7 +107,8 @@ namespace perideal
               throw InputError(
                 "the closed form of the line-to-point force knows tractions along the normal only")
                 .parameter("Boundary conditions/Traction treatment")
-                .hint("set it to missing bonds, or remove the tangential traction of Boundary conditions/" +
+                .hint("set Boundary conditions/Treatment = taylor ghosts instead, or remove the tangential "
+                      "traction of Boundary conditions/" +
                       loads.conditions[k].name);
             result += along;
           }

@@ -11,7 +11,20 @@ namespace perideal
   namespace
   {
     /// Singular values below this part of the largest one count as none.
-    constexpr double rank_tolerance = 1e-8;
+    constexpr double rank_tolerance = 1e-7;
+    /// Of the rows of faces over those of members.
+    constexpr double weight_of_faces = 2.;
+
+    /// Of a symmetric matrix of squares, so that its eigenvalues are those of singular values.
+    Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &matrix)
+    {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+      Eigen::VectorXd                                      inverted = eigen.eigenvalues();
+      const double smallest = rank_tolerance * rank_tolerance * inverted.maxCoeff();
+      for (double &value : inverted)
+        value = value > smallest ? 1. / value : 0.;
+      return eigen.eigenvectors() * inverted.asDiagonal() * eigen.eigenvectors().transpose();
+    }
   } // namespace
 
   template <int dim>
@@ -25,19 +38,17 @@ namespace perideal
   }
 
   template <int dim>
-  typename TaylorBasis<dim>::Row TaylorBasis<dim>::difference(const dealii::Tensor<1, dim> &d,
-                                                              const unsigned int            component)
+  typename TaylorBasis<dim>::Monomials TaylorBasis<dim>::monomials(const dealii::Tensor<1, dim> &d)
   {
-    Row          row   = Row::Zero();
-    unsigned int entry = component * n_monomials;
+    Monomials result;
     for (int k = 0; k < dim; ++k)
-      row[entry++] = d[k];
+      result[k] = d[k];
     for (unsigned int p = 0; p < n_pairs; ++p)
       {
         const auto pair = dealii::SymmetricTensor<2, dim>::unrolled_to_component_indices(p);
-        row[entry++]    = (pair[0] == pair[1] ? 0.5 : 1.) * d[pair[0]] * d[pair[1]];
+        result[dim + p] = (pair[0] == pair[1] ? 0.5 : 1.) * d[pair[0]] * d[pair[1]];
       }
-    return row;
+    return result;
   }
 
   template <int dim>
@@ -69,44 +80,26 @@ namespace perideal
     return row;
   }
 
-  /// Rows over the coefficients, and what they shall be: rows over the node's own displacement, and over the
-  /// known values; of members, the difference of their displacement. Some rows must be met, some weigh.
+  /// What the polynomial shall meet at the surface: a row over its coefficients, and what that is in units
+  /// of a known value, from which a displacement has the node's own taken off.
   template <int dim>
-  struct TaylorFit<dim>::Equations
+  struct TaylorFit<dim>::Equation
   {
-    struct Row
-    {
-      typename Basis::Row row;
-      /// Column of the displacement whose difference from the node's own it shall be, of that
-      /// which the node's own is subtracted from, or -1.
-      int node_column = -1, own_column = -1, known_column = -1;
-      /// Factor of these.
-      double weight = 1;
-    };
-    std::vector<Row> exact, weighed;
-    double           spacing = 1;
+    typename Basis::Row row;
+    double              weight;
+    bool                is_displacement;
+    unsigned int        component;
+    /// Number of the known value; -1: a free surface, where it is zero.
+    int known = -1;
 
-    static Eigen::MatrixXd matrix(const std::vector<Row> &rows)
+    /// Adds map times the right-hand side.
+    template <typename Column>
+    void add(const Column &map, TaylorPolynomial<dim> &polynomial) const
     {
-      Eigen::MatrixXd result(rows.size(), Basis::n_coefficients);
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        result.row(r) = rows[r].row;
-      return result;
-    }
-
-    /// Adds map times the right-hand sides of the rows.
-    static void
-    add_product(const Eigen::MatrixXd &map, const std::vector<Row> &rows, TaylorPolynomial<dim> &polynomial)
-    {
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        {
-          if (rows[r].node_column >= 0)
-            polynomial.of_nodes.col(rows[r].node_column) += rows[r].weight * map.col(r);
-          if (rows[r].own_column >= 0)
-            polynomial.of_nodes.col(rows[r].own_column) -= rows[r].weight * map.col(r);
-          if (rows[r].known_column >= 0)
-            polynomial.of_known.col(rows[r].known_column) += rows[r].weight * map.col(r);
-        }
+      if (is_displacement)
+        polynomial.of_nodes.col(component) -= weight * map;
+      if (known >= 0)
+        polynomial.of_known.col(known) += weight * map;
     }
   };
 
@@ -149,108 +142,130 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<LocalIndex> TaylorFit<dim>::nearest_members(const LocalIndex i) const
+  typename TaylorFit<dim>::Equation
+  TaylorFit<dim>::equation_of(const LocalIndex i, const SurfaceValue<dim> &value, const double factor) const
   {
-    constexpr std::size_t   n_wanted = dim == 2 ? 12 : 30;
-    std::vector<LocalIndex> result(families.begin(i), families.end(i));
-    if (result.size() <= n_wanted)
-      return result;
-    const auto distance = [&](const LocalIndex j) {
-      return families.position[i].distance(families.position[j]);
-    };
-    std::vector<double> distances;
-    for (const LocalIndex j : result)
-      distances.push_back(distance(j));
-    std::nth_element(distances.begin(), distances.begin() + (n_wanted - 1), distances.end());
-    // All that are as far as the last one, so that lattices keep their symmetry.
-    const double largest = distances[n_wanted - 1] * (1. + 1e-6);
-    result.erase(
-      std::remove_if(result.begin(), result.end(), [&](const LocalIndex j) { return distance(j) > largest; }),
-      result.end());
+    const double                 spacing = families.spacing[i];
+    const dealii::Tensor<1, dim> d       = (value.point - families.position[i]) / spacing;
+    Equation                     result;
+    result.weight          = factor / std::max(d.norm(), 0.5);
+    result.is_displacement = value.is_displacement;
+    result.component       = value.component;
+    if (value.is_displacement)
+      {
+        result.row.setZero();
+        result.row.template segment<Basis::n_monomials>(value.component * Basis::n_monomials) =
+          result.weight * Basis::monomials(d).transpose();
+        return result;
+      }
+    result.weight /= stiffness.norm();
+    result.row = result.weight * Basis::traction(d, stiffness, value.normal, value.component);
+    result.weight *= spacing;
     return result;
   }
 
   template <int dim>
-  void TaylorFit<dim>::add_value(const LocalIndex         i,
-                                 const SurfaceValue<dim> &value,
-                                 const bool               is_own,
-                                 Equations               &equations) const
+  TaylorPolynomial<dim> TaylorFit<dim>::fit_inside(const LocalIndex i) const
   {
-    const dealii::Tensor<1, dim> d      = (value.point - families.position[i]) / equations.spacing;
-    const double                 weight = (is_own ? 1. : 10.) / std::max(d.norm(), 0.5);
-    typename Equations::Row      equation;
-    if (value.is_displacement)
+    using Gradient = Eigen::Matrix<double, dim, 1>;
+    TaylorPolynomial<dim> result;
+    result.nodes.push_back(i);
+    result.nodes.insert(result.nodes.end(), families.begin(i), families.end(i));
+    result.of_nodes.setZero(Basis::n_coefficients, dim * result.nodes.size());
+    result.of_known.setZero(Basis::n_coefficients, 0);
+    Eigen::Matrix<double, dim, dim> normal = Eigen::Matrix<double, dim, dim>::Zero();
+    for (std::size_t a = 1; a < result.nodes.size(); ++a)
       {
-        equation.row        = weight * Basis::difference(d, value.component);
-        equation.own_column = value.component;
-        equation.weight     = weight;
+        const auto     member = monomials_of_member(i, result.nodes[a]);
+        const Gradient d      = member.first.template head<dim>();
+        normal += member.second * d * d.transpose();
       }
-    else
+    const Eigen::Matrix<double, dim, dim> inverse = pseudo_inverse(normal);
+    for (std::size_t a = 1; a < result.nodes.size(); ++a)
       {
-        const double scale = weight / stiffness.norm();
-        equation.row       = scale * Basis::traction(d, stiffness, value.normal, value.component);
-        equation.weight    = scale * equations.spacing;
+        const auto     member = monomials_of_member(i, result.nodes[a]);
+        const Gradient map    = member.second * (inverse * member.first.template head<dim>());
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            result.of_nodes.template block<dim, 1>(c * Basis::n_monomials, dim * a + c) = map;
+            result.of_nodes.template block<dim, 1>(c * Basis::n_monomials, c) -= map;
+          }
       }
-    (is_own ? equations.exact : equations.weighed).push_back(equation);
+    return result;
   }
 
   template <int dim>
   TaylorPolynomial<dim> TaylorFit<dim>::fit(const LocalIndex i, const std::vector<NearFace> &faces) const
   {
+    constexpr unsigned int n = Basis::n_coefficients, m = Basis::n_monomials;
+    using Square = Eigen::Matrix<double, n, n>;
     TaylorPolynomial<dim> result;
-    Equations             equations;
-    equations.spacing = families.spacing[i];
     result.nodes.push_back(i);
-    for (const LocalIndex j : nearest_members(i))
-      {
-        const dealii::Tensor<1, dim> d = (families.position[j] - families.position[i]) / equations.spacing;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            typename Equations::Row equation;
-            equation.weight      = 1. / d.norm();
-            equation.row         = equation.weight * Basis::difference(d, c);
-            equation.node_column = dim * result.nodes.size() + c;
-            equation.own_column  = c;
-            equations.weighed.push_back(equation);
-          }
-        result.nodes.push_back(j);
-      }
+    result.nodes.insert(result.nodes.end(), families.begin(i), families.end(i));
+    std::vector<Equation> exact, weighed;
     for (const NearFace &face : faces)
       for (const SurfaceValue<dim> &value : values_at(*face.first))
         {
-          add_value(i, value, face.second, equations);
+          std::vector<Equation> &equations = face.second ? exact : weighed;
+          equations.push_back(equation_of(i, value, face.second ? 1. : weight_of_faces));
           if (value.conditions.empty())
             continue;
-          (face.second ? equations.exact : equations.weighed).back().known_column = result.known.size();
+          equations.back().known = static_cast<int>(result.known.size());
           result.known.push_back(value);
         }
-    result.of_nodes.setZero(Basis::n_coefficients, dim * result.nodes.size());
-    result.of_known.setZero(Basis::n_coefficients, result.known.size());
+    result.of_nodes.setZero(n, dim * result.nodes.size());
+    result.of_known.setZero(n, result.known.size());
 
-    // Coefficients A^+ b + Z y meet the exact rows A for any y; the others choose it.
-    const Eigen::MatrixXd weighed        = Equations::matrix(equations.weighed);
-    const auto            pseudo_inverse = [](const Eigen::MatrixXd &matrix) -> Eigen::MatrixXd {
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-      decomposition.setThreshold(rank_tolerance);
-      decomposition.compute(matrix);
-      return decomposition.pseudoInverse();
-    };
-    if (equations.exact.empty())
+    // Normal equations of members and faces: N c = r.
+    Square normal = Square::Zero();
+    {
+      Eigen::Matrix<double, m, m> of_members = Eigen::Matrix<double, m, m>::Zero();
+      for (std::size_t a = 1; a < result.nodes.size(); ++a)
+        {
+          const auto member = monomials_of_member(i, result.nodes[a]);
+          of_members += member.second * member.first * member.first.transpose();
+        }
+      for (unsigned int c = 0; c < dim; ++c)
+        normal.template block<m, m>(c * m, c * m) = of_members;
+    }
+    for (const Equation &equation : weighed)
+      normal += equation.row.transpose() * equation.row;
+
+    // Coefficients A^+ b + Z y meet the exact rows A c = b with any y: c = X r + (1 - X N) A^+ b.
+    Eigen::MatrixXd inverse, free = Eigen::MatrixXd::Identity(n, n);
+    if (!exact.empty())
       {
-        Equations::add_product(pseudo_inverse(weighed), equations.weighed, result);
-        return result;
+        Eigen::MatrixXd rows(exact.size(), n);
+        for (std::size_t k = 0; k < exact.size(); ++k)
+          rows.row(k) = exact[k].row;
+        Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        svd.setThreshold(rank_tolerance);
+        const Eigen::Index rank = svd.rank();
+        inverse = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
+                  svd.matrixU().leftCols(rank).transpose();
+        free = svd.matrixV().rightCols(n - rank).eval();
       }
-    const Eigen::MatrixXd             exact = Equations::matrix(equations.exact);
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(exact, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(rank_tolerance);
-    const Eigen::Index    rank    = svd.rank();
-    const Eigen::MatrixXd inverse = svd.matrixV().leftCols(rank) *
-                                    svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
-                                    svd.matrixU().leftCols(rank).transpose();
-    const Eigen::MatrixXd free   = svd.matrixV().rightCols(Basis::n_coefficients - rank);
-    const Eigen::MatrixXd chosen = free * pseudo_inverse(weighed * free);
-    Equations::add_product(chosen, equations.weighed, result);
-    Equations::add_product(inverse - chosen * (weighed * inverse), equations.exact, result);
+    const Square x = free * pseudo_inverse(free.transpose() * normal * free) * free.transpose();
+
+    for (std::size_t a = 1; a < result.nodes.size(); ++a)
+      {
+        const auto member = monomials_of_member(i, result.nodes[a]);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const Eigen::Matrix<double, n, 1> map =
+              member.second * (x.template middleCols<m>(c * m) * member.first);
+            result.of_nodes.col(dim * a + c) += map;
+            result.of_nodes.col(c) -= map;
+          }
+      }
+    for (const Equation &equation : weighed)
+      equation.add(x * equation.row.transpose(), result);
+    if (!exact.empty())
+      {
+        const Eigen::MatrixXd particular = inverse - x * (normal * inverse);
+        for (std::size_t k = 0; k < exact.size(); ++k)
+          exact[k].add(particular.col(k), result);
+      }
     return result;
   }
 

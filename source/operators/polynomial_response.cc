@@ -51,27 +51,24 @@ namespace perideal
     of_gradients.resize(n);
     of_curvature.resize(n);
     double largest = 0;
-    for (unsigned int p = 0; p < Basis::n_pairs; ++p)
+    for (int c = 0; c < dim; ++c)
       {
-        const auto pair     = Pair<dim>::unrolled_to_component_indices(p);
-        const auto gradient = response([&](const dealii::Tensor<1, dim> &x) {
-          dealii::Tensor<1, dim> u;
-          u[pair[0]] += 0.5 * x[pair[1]];
-          u[pair[1]] += 0.5 * x[pair[0]];
-          return u;
-        });
-        for (LocalIndex i = 0; i < n; ++i)
-          of_gradients[i].col(p) = gradient.col(i);
-        for (int c = 0; c < dim; ++c)
-          {
-            const auto curvature = response([&](const dealii::Tensor<1, dim> &x) {
-              dealii::Tensor<1, dim> u;
-              u[c] = (pair[0] == pair[1] ? 0.5 : 1.) * x[pair[0]] * x[pair[1]];
-              return u;
-            });
-            for (LocalIndex i = 0; i < n; ++i)
-              of_curvature[i].col(c * Basis::n_pairs + p) = curvature.col(i);
-          }
+        const auto store = [&](auto &columns, const unsigned int column, const auto &monomial) {
+          const auto forces = response([&](const dealii::Tensor<1, dim> &x) {
+            dealii::Tensor<1, dim> u;
+            u[c] = monomial(x);
+            return u;
+          });
+          for (LocalIndex i = 0; i < n; ++i)
+            columns[i].col(column) = forces.col(i);
+        };
+        for (int l = 0; l < dim; ++l)
+          store(of_gradients, dim * c + l, [l](const auto &x) { return x[l]; });
+        for (unsigned int p = 0; p < Basis::n_pairs; ++p)
+          store(of_curvature, c * Basis::n_pairs + p, [p](const auto &x) {
+            const auto pair = Pair<dim>::unrolled_to_component_indices(p);
+            return (pair[0] == pair[1] ? 0.5 : 1.) * x[pair[0]] * x[pair[1]];
+          });
       }
     for (LocalIndex i = 0; i < n; ++i)
       largest = std::max(largest, of_gradients[i].norm());

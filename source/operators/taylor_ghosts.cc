@@ -108,7 +108,7 @@ namespace perideal
       {
         if (!response.lacks_bonds(i))
           continue;
-        const auto polynomial = fit.fit(i, near[i]);
+        const auto polynomial = is_inside[i] ? fit.fit_inside(i) : fit.fit(i, near[i]);
         auto       missing    = response.force_of_gradient(i);
         if (!is_inside[i])
           missing = response.force(i) +

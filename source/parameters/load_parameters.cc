@@ -133,18 +133,18 @@ namespace perideal
       "Traction treatment",
       traction_treatment,
       "How tractions and pressures reach the nodes: layer: as forces on the nodes of the cells at the "
-      "boundary; missing "
-      "bonds: with what the bonds would do that families lack behind the surface, also where it is free, so "
-      "that "
-      "uniform stresses are exact (statics, not the consistent form); line to point: the closed form of "
-      "bond-based peridynamics "
-      "in 3-D for tractions along the normal; printed line to point: as published, with a third of the force "
-      "lost; "
-      "transfer: over the nodes within their horizons of a face, which get its force and moment; "
-      "printed transfer: as published, with external forces 39 % too large; "
-      "automatic: at the faces of the consistent form, else layer",
-      dealii::Patterns::Selection("automatic|layer|taylor ghosts|missing bonds|line to point|printed line to "
-                                  "point|transfer|printed transfer"));
+      "boundary; taylor ghosts: by bonds that are missing behind the surface, also where it is free, whose "
+      "far "
+      "ends move by Taylor polynomials that meet the tractions (statics, not the consistent form, with the "
+      "same treatment of displacements); transfer: spread over the nodes within a horizon, with force and "
+      "moment "
+      "of each face; printed transfer: as published, 1.386 times too large; line to point: the closed form "
+      "of "
+      "bond-based peridynamics in 3-D for tractions along the normal; printed line to point: as published, "
+      "with "
+      "a third of the force lost; automatic: at the faces of the consistent form, else layer",
+      dealii::Patterns::Selection(
+        "automatic|layer|taylor ghosts|line to point|printed line to point|transfer|printed transfer"));
     prm.add_parameter("Transfer chi",
                       transfer_chi,
                       "Of the printed transfer: its factor is chi/(chi-1), not 0 or 1 [-]",

@@ -21,7 +21,6 @@
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/contact_force.h>
-#include <perideal/operators/missing_bonds.h>
 #include <perideal/operators/null_space.h>
 #include <perideal/operators/relative_damping.h>
 #include <perideal/operators/tangent_operator.h>
@@ -83,8 +82,6 @@ namespace perideal
     std::vector<FamilyReport> family_reports;
     /// The same object as bonds, where the form is consistent.
     std::shared_ptr<ConsistentOperator<dim>> consistent;
-    /// The same object as bonds, where tractions act by the bonds that are missing.
-    std::shared_ptr<MissingBonds<dim>> missing_bonds;
     /// C of whole families by their quadrature [Pa], where the scene needs it.
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
     /// The same object as bonds, where ghosts stand for the bonds that are missing.

@@ -67,7 +67,6 @@ namespace perideal
     /// Collective.
     /// @param points of the cells; null: one point each
     std::vector<double> compensation_factors(const GaussPoints<dim> *points = nullptr) const;
-    void                add_missing_bonds();
     void                add_taylor_ghosts();
     /// Transfer functions, where the scene has them. Collective.
     void make_transfer();

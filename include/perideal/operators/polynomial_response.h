@@ -34,7 +34,7 @@ namespace perideal
     /// Collective. The families must outlive this object.
     PolynomialResponse(const BondOperator<dim> &bonds, const Families<dim> &families);
 
-    /// Whether a uniform strain leaves a node without balance.
+    /// Whether a uniform gradient leaves a node without balance.
     bool lacks_bonds(const LocalIndex i) const { return of_gradients[i].norm() > tolerance; }
 
     /// K T [N] by the coefficients of T.
@@ -55,7 +55,7 @@ namespace perideal
     /// Force on a node under u_c = x_l.
     auto under_gradient(const LocalIndex i, const unsigned int c, const unsigned int l) const
     {
-      return of_gradients[i].col(dealii::SymmetricTensor<2, dim>::component_to_unrolled_index({c, l}));
+      return of_gradients[i].col(dim * c + l);
     }
 
     /// K u of the owned nodes, a column for each.
@@ -65,8 +65,9 @@ namespace perideal
     const BondOperator<dim> &bonds;
     const Families<dim>     &families;
     dealii::Point<dim>       middle;
-    /// Under symmetric gradients of 1, and under second derivatives of 1 by component, about the middle.
-    using OfGradients = Eigen::Matrix<double, dim, Basis::n_pairs>;
+    /// Under gradients of 1, rotations included, which bonds with tensors resist near the surface; and under
+    /// second derivatives of 1 by component, about the middle.
+    using OfGradients = Eigen::Matrix<double, dim, dim * dim>;
     using OfCurvature = Eigen::Matrix<double, dim, dim * Basis::n_pairs>;
     std::vector<OfGradients, Eigen::aligned_allocator<OfGradients>> of_gradients;
     std::vector<OfCurvature, Eigen::aligned_allocator<OfCurvature>> of_curvature;

@@ -51,7 +51,7 @@ namespace perideal
     /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
     /// layer | reference | mirror | surface nodes | taylor ghosts.
     std::string displacement_treatment = "automatic";
-    /// How tractions reach the nodes: automatic | layer | taylor ghosts | missing bonds | line to point |
+    /// How tractions reach the nodes: automatic | layer | taylor ghosts | line to point |
     /// printed line to point | transfer | printed transfer.
     std::string traction_treatment = "automatic";
     /// Of the printed transfer: chi of PDBC (2.14) [-], lambda of (3.15) [N/m^11].
@@ -71,16 +71,12 @@ namespace perideal
     bool has_surface_nodes() const { return displacement_treatment == "surface nodes"; }
     bool has_printed_transfer() const { return traction_treatment == "printed transfer"; }
     bool has_transfer() const { return traction_treatment == "transfer" || has_printed_transfer(); }
-    bool has_missing_bonds() const { return traction_treatment == "missing bonds"; }
     bool has_line_to_point() const
     {
       return traction_treatment == "line to point" || traction_treatment == "printed line to point";
     }
     /// Whether tractions act on the nodes that a face has within a horizon, and not on its cell's.
-    bool act_in_depth() const
-    {
-      return has_transfer() || has_taylor_ghosts() || has_missing_bonds() || has_line_to_point();
-    }
+    bool act_in_depth() const { return has_transfer() || has_taylor_ghosts() || has_line_to_point(); }
   };
 
   /// A boundary condition ready to be evaluated.
