@@ -12,6 +12,7 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::set_up_tangent()
   {
+    const Timings::Scope scope(timings, "setup");
     const Timings::Scope part(timings, "setup: preconditioner");
     scene.tangent        = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
     scene.tangent_system = std::make_unique<ConstrainedOperator<dim>>(
@@ -33,20 +34,9 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::run_quasi_static()
   {
-    prepare_cracks();
-    find_free_motions();
-    weigh_bonds();
-    prepare_comparisons();
-    {
-      const Timings::Scope scope(timings, "setup");
-      scene.force = create_bond_force<dim>(*scene.weights);
-      set_up_tangent();
-      make_cracks_and_limits();
-    }
-    summary["solver"]["name"] = "quasi static, " + scene.tangent_solver->name();
-    announce();
-    check_loads();
-    open_outputs();
+    make_bond_force();
+    set_up_tangent();
+    prepare_equilibria("quasi static, " + scene.tangent_solver->name());
     typename NewtonSolver<dim>::Controls controls;
     controls.tolerance      = parameters.solver.tolerance;
     controls.max_iterations = parameters.solver.newton_iterations;

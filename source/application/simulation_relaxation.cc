@@ -70,21 +70,34 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void Simulation<dim>::run_relaxation()
+  void Simulation<dim>::prepare_equilibria(const std::string &solver)
+  {
+    summary["solver"]["name"] = solver;
+    {
+      const Timings::Scope scope(timings, "setup");
+      make_cracks_and_limits();
+    }
+    announce();
+    check_loads();
+    open_outputs();
+  }
+
+  template <int dim>
+  void Simulation<dim>::make_bond_force()
   {
     prepare_cracks();
     find_free_motions();
     weigh_bonds();
     prepare_comparisons();
-    {
-      const Timings::Scope scope(timings, "setup");
-      scene.force = create_bond_force<dim>(*scene.weights);
-      make_cracks_and_limits();
-    }
-    summary["solver"]["name"] = "dynamic relaxation";
-    announce();
-    check_loads();
-    open_outputs();
+    const Timings::Scope scope(timings, "setup");
+    scene.force = create_bond_force<dim>(*scene.weights);
+  }
+
+  template <int dim>
+  void Simulation<dim>::run_relaxation()
+  {
+    make_bond_force();
+    prepare_equilibria("dynamic relaxation");
     typename DynamicRelaxation<dim>::Controls controls;
     controls.tolerance      = parameters.solver.tolerance;
     controls.max_iterations = parameters.solver.max_iterations;
@@ -200,6 +213,8 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void Simulation<dim>::make_bond_force();                                                          \
+  template void Simulation<dim>::prepare_equilibria(const std::string &);                                    \
   template void Simulation<dim>::run_relaxation();                                                           \
   template void Simulation<dim>::run_load_steps(EquilibriumPath<dim> &);
   PERIDEAL_INSTANTIATE(2)

@@ -79,7 +79,8 @@ namespace perideal
                  loads.displacement_treatment,
                "set Boundary conditions/Treatment = taylor ghosts instead of either");
     if (solver.name != "static")
-      complain("what ghosts do follows from linear statics", "choose another treatment for this solver");
+      complain("what ghosts do follows from linear statics, not Solver/Name = " + solver.name,
+               "choose another treatment for this solver");
     if (model.is_consistent())
       complain("the consistent form takes its boundary conditions at faces",
                "set Material/Form to another one");

@@ -195,11 +195,49 @@ namespace perideal
   }
 
   template <int dim>
+  typename TaylorFit<dim>::Square TaylorFit<dim>::normal_matrix(const LocalIndex             i,
+                                                                const std::vector<Equation> &equations) const
+  {
+    constexpr unsigned int      m          = Basis::n_monomials;
+    Eigen::Matrix<double, m, m> of_members = Eigen::Matrix<double, m, m>::Zero();
+    for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+      {
+        const auto member = monomials_of_member(i, *j);
+        of_members += member.second * member.first * member.first.transpose();
+      }
+    Square result = Square::Zero();
+    for (unsigned int c = 0; c < dim; ++c)
+      result.template block<m, m>(c * m, c * m) = of_members;
+    for (const Equation &equation : equations)
+      result += equation.row.transpose() * equation.row;
+    return result;
+  }
+
+  template <int dim>
+  void TaylorFit<dim>::invert(const std::vector<Equation> &equations,
+                              Eigen::MatrixXd             &inverse,
+                              Eigen::MatrixXd             &free)
+  {
+    constexpr unsigned int n = Basis::n_coefficients;
+    free.setIdentity(n, n);
+    if (equations.empty())
+      return;
+    Eigen::MatrixXd rows(equations.size(), n);
+    for (std::size_t k = 0; k < equations.size(); ++k)
+      rows.row(k) = equations[k].row;
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    svd.setThreshold(rank_tolerance);
+    const Eigen::Index rank = svd.rank();
+    inverse = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
+              svd.matrixU().leftCols(rank).transpose();
+    free = svd.matrixV().rightCols(n - rank);
+  }
+
+  template <int dim>
   TaylorPolynomial<dim> TaylorFit<dim>::fit(const LocalIndex i, const std::vector<NearFace> &faces) const
   {
     constexpr unsigned int n = Basis::n_coefficients, m = Basis::n_monomials;
-    using Square = Eigen::Matrix<double, n, n>;
-    TaylorPolynomial<dim> result;
+    TaylorPolynomial<dim>  result;
     result.nodes.push_back(i);
     result.nodes.insert(result.nodes.end(), families.begin(i), families.end(i));
     std::vector<Equation> exact, weighed;
@@ -216,35 +254,11 @@ namespace perideal
     result.of_nodes.setZero(n, dim * result.nodes.size());
     result.of_known.setZero(n, result.known.size());
 
-    // Normal equations of members and faces: N c = r.
-    Square normal = Square::Zero();
-    {
-      Eigen::Matrix<double, m, m> of_members = Eigen::Matrix<double, m, m>::Zero();
-      for (std::size_t a = 1; a < result.nodes.size(); ++a)
-        {
-          const auto member = monomials_of_member(i, result.nodes[a]);
-          of_members += member.second * member.first * member.first.transpose();
-        }
-      for (unsigned int c = 0; c < dim; ++c)
-        normal.template block<m, m>(c * m, c * m) = of_members;
-    }
-    for (const Equation &equation : weighed)
-      normal += equation.row.transpose() * equation.row;
-
-    // Coefficients A^+ b + Z y meet the exact rows A c = b with any y: c = X r + (1 - X N) A^+ b.
-    Eigen::MatrixXd inverse, free = Eigen::MatrixXd::Identity(n, n);
-    if (!exact.empty())
-      {
-        Eigen::MatrixXd rows(exact.size(), n);
-        for (std::size_t k = 0; k < exact.size(); ++k)
-          rows.row(k) = exact[k].row;
-        Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        svd.setThreshold(rank_tolerance);
-        const Eigen::Index rank = svd.rank();
-        inverse = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
-                  svd.matrixU().leftCols(rank).transpose();
-        free = svd.matrixV().rightCols(n - rank).eval();
-      }
+    // Coefficients A^+ b + Z y meet the exact rows A c = b with any y; the normal equations N c = r of all
+    // others choose c = X r + (1 - X N) A^+ b.
+    const Square    normal = normal_matrix(i, weighed);
+    Eigen::MatrixXd inverse, free;
+    invert(exact, inverse, free);
     const Square x = free * pseudo_inverse(free.transpose() * normal * free) * free.transpose();
 
     for (std::size_t a = 1; a < result.nodes.size(); ++a)

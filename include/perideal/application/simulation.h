@@ -135,6 +135,10 @@ namespace perideal
     void record_crack_tips(const GlobalIndex n_broken, const double time);
 
     // Equilibria of the nonlinear force, by dynamic relaxation or Newton's method.
+    /// The parts of the scene up to the force, of whole bonds.
+    void make_bond_force();
+    /// Cracks and limits, checks and outputs, before the first load step.
+    void prepare_equilibria(const std::string &solver);
     void run_relaxation();
     void run_quasi_static();
     /// The tangent and what solves with it, in the body before anything is cut.

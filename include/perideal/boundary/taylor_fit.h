@@ -102,9 +102,16 @@ namespace perideal
   private:
     using Basis = TaylorBasis<dim>;
     struct Equation;
+    using Square = Eigen::Matrix<double, Basis::n_coefficients, Basis::n_coefficients>;
 
     std::vector<SurfaceValue<dim>> values_at(const SurfaceFace<dim> &face) const;
     Equation equation_of(const LocalIndex i, const SurfaceValue<dim> &value, const double factor) const;
+
+    /// Of the normal equations of members and some rows.
+    Square normal_matrix(const LocalIndex i, const std::vector<Equation> &equations) const;
+    /// Pseudo-inverse of the rows, and a basis of what they leave free.
+    static void
+    invert(const std::vector<Equation> &equations, Eigen::MatrixXd &inverse, Eigen::MatrixXd &free);
 
     /// Monomials at a member, and its squared weight.
     std::pair<typename Basis::Monomials, double> monomials_of_member(const LocalIndex i,
