@@ -140,11 +140,26 @@ namespace perideal
                              " here: " + scene.mesh->material_name(solid.first) + " is not given its " +
                              short_number(given.poisson_ratio));
         }
-    if (parameters.model.model == "ordinary")
+    if (parameters.model.model == "ordinary" && !scene.ghosts)
       result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
     if (consistent && (parameters.loads.displacement_treatment == "layer" ||
                        parameters.loads.displacement_treatment == "reference"))
       result.push_back("held nodes take from the consistent form the accuracy that face values have");
+    if (scene.ghosts)
+      {
+        const ElasticSolid<dim> &solid = scene.solids.begin()->second;
+        const ElasticSolid<dim>  own =
+          parameters.model.is_tensor_involved() ?
+             solid :
+             ElasticSolid<dim>(parameters.model.constants_of_model(solid.isotropic()));
+        const double given = own.stiffness()[0][0][0][0];
+        const double share = (*scene.family_stiffness)[0][0][0][0] / given - 1.;
+        if (std::abs(share) > 0.01)
+          result.push_back("families are " + short_number(100. * std::abs(share)) + " % " +
+                           (share > 0 ? "stiffer" : "softer") +
+                           " along x than the material, and so is the body: take Material/Model = extended "
+                           "ordinary, Form = energy, whose families are not");
+      }
     warn_of_solids(parameters, scene, result);
     warn_of_cells(scene, result);
     return result;

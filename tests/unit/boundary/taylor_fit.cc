@@ -43,8 +43,8 @@ namespace
       for (const auto &face : surface)
         if (face.centre.distance(body.nodes.position[i]) < body.nodes.horizon[i])
           result.emplace_back(&face, std::any_of(faces.begin(), faces.end(), [&](const auto &own) {
-                                return own.node == i && own.centre.distance(face.centre) < 1e-9;
-                              }));
+            return own.node == i && own.centre.distance(face.centre) < 1e-9;
+          }));
       return result;
     }
 
@@ -87,7 +87,8 @@ TEST(TaylorFit, ReproducesPolynomialsOfSecondDegree)
             (plate.body.families->position[polynomial.nodes[a]] - plate.body.nodes.position[i]) /
             plate.body.nodes.spacing[i]);
           for (unsigned int c = 0; c < 2; ++c)
-            u[2 * a + c] = wanted.segment(c * TaylorBasis<2>::n_monomials, TaylorBasis<2>::n_monomials).dot(monomials);
+            u[2 * a + c] =
+              wanted.segment(c * TaylorBasis<2>::n_monomials, TaylorBasis<2>::n_monomials).dot(monomials);
         }
       EXPECT_LT((polynomial.of_nodes * u - wanted).norm(), 1e-9);
     }
@@ -107,13 +108,14 @@ TEST(TaylorFit, MeetsWhatIsKnownOfTheFacesOfItsCell)
       for (unsigned int k = 0; k < 2; ++k)
         if (face.boundary == 0)
           {
-            const auto own = 1e-3 * test::scatter(nodes.position[face.node], k);
-            const auto value =
-              own + TaylorBasis<2>::monomials(d).dot(c.segment(k * TaylorBasis<2>::n_monomials, TaylorBasis<2>::n_monomials));
+            const auto own   = 1e-3 * test::scatter(nodes.position[face.node], k);
+            const auto value = own + TaylorBasis<2>::monomials(d).dot(c.segment(
+                                       k * TaylorBasis<2>::n_monomials, TaylorBasis<2>::n_monomials));
             EXPECT_NEAR(value, k == 0 ? 3e-3 + face.centre[1] : 2e-3, 1e-11);
           }
         else
-          EXPECT_NEAR(TaylorBasis<2>::traction(d, plate.stiffness, face.normal, k).dot(c) / nodes.spacing[face.node],
+          EXPECT_NEAR(TaylorBasis<2>::traction(d, plate.stiffness, face.normal, k).dot(c) /
+                        nodes.spacing[face.node],
                       pull * face.normal[k],
                       1e-2);
     }
