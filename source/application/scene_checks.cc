@@ -9,6 +9,9 @@ namespace perideal
 {
   void SceneParameters::resolve()
   {
+    // What breaks by stress breaks between the bonds of families.
+    if (model.is_correspondence() && model.form == "automatic" && !precracks.cracks.empty())
+      model.form = "family";
     model.resolve(dimension,
                   solver.is_dynamic() || solver.is_nonlinear_static() ? ModelParameters::Use::motion :
                                                                         ModelParameters::Use::statics);
@@ -20,13 +23,14 @@ namespace perideal
       check_nonlinear_statics();
     else
       check_statics();
+    check_correspondence();
     check_areal_forces();
     const auto check_symmetry = [this](const MaterialProperties &properties) {
-      if (!properties.symmetry.is_isotropic() && !model.is_tensor_involved())
+      if (!properties.symmetry.is_isotropic() && !model.takes_any_symmetry())
         throw InputError("this model is one of isotropic materials")
           .parameter(properties.symmetry.section + "/Symmetry")
           .given(properties.symmetry.name)
-          .allowed("isotropic; or set Material/Model = tensor involved");
+          .allowed("isotropic; or set Material/Model = tensor involved | correspondence");
     };
     check_symmetry(material.body);
     for (const auto &group : material.groups)
@@ -124,6 +128,37 @@ namespace perideal
     check_transfer();
   }
 
+  void SceneParameters::check_correspondence() const
+  {
+    if (!model.is_correspondence())
+      return;
+    if (solver.is_dynamic() || solver.is_relaxation())
+      throw InputError("the correspondence model is one of statics, by tangents")
+        .parameter("Solver/Name")
+        .given(solver.name)
+        .allowed("static | quasi static for Material/Model = correspondence");
+    if (model.law != "linear elastic" && !solver.is_quasi_static())
+      throw InputError("large strain is sought along load steps")
+        .parameter("Material/Law")
+        .given(model.law)
+        .allowed("linear elastic for Solver/Name = " + solver.name)
+        .hint("set Solver/Name = quasi static");
+    if (quadrature.has_gauss_points())
+      throw InputError("Gauss points serve springs only")
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .allowed("one point | cubic cell | partial volume for Material/Model = correspondence");
+    if (model.is_consistent() && !precracks.cracks.empty())
+      throw InputError("the consistent form takes gradients from faces, which no crack cuts")
+        .parameter("Material/Form")
+        .given(model.form)
+        .allowed("automatic | family with Precracks");
+    if (!areal_forces.points.empty())
+      throw InputError("bonds of the correspondence model carry the stresses of whole families")
+        .parameter("Areal force densities/" + areal_forces.points.front().name)
+        .hint("remove it, or write Output/Fields = stress");
+  }
+
   void SceneParameters::check_dynamics() const
   {
     if (model.is_linear_only())
@@ -193,7 +228,8 @@ namespace perideal
         .given(model.form)
         .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in " + method);
     const std::string &treatment = loads.displacement_treatment;
-    if (treatment != "automatic" && treatment != "layer" && !loads.has_surface_nodes())
+    const bool         at_faces  = treatment == "face value" && model.is_consistent();
+    if (treatment != "automatic" && treatment != "layer" && !at_faces && !loads.has_surface_nodes())
       throw InputError(method + " holds nodes")
         .parameter("Boundary conditions/Displacement treatment")
         .given(treatment)

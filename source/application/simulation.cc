@@ -162,9 +162,9 @@ namespace perideal
 
     // Linear: the strain energy is half the work of all forces that act on the body.
     auto from_faces = sum_mirror_reactions(*scene.system, scene.loads.conditions.size());
-    if (scene.consistent && !by_nodes())
+    if (parameters.model.is_consistent() && !by_nodes())
       {
-        const auto forces = scene.consistent->support_forces();
+        const auto forces = scene.bonds->support_forces();
         from_faces.force  = scene.face_values->sum_by_condition(forces, communicator);
         from_faces.work   = scene.face_values->work(forces, communicator);
       }

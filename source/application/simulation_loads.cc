@@ -52,7 +52,7 @@ namespace perideal
     const LoadParameters &loads = parameters.loads;
     // No external force acts on nodes that are not those of cells.
     force = 0.;
-    if (scene.consistent)
+    if (parameters.model.is_consistent())
       compute_nodal_forces(
         *scene.nodes, scene.faces, *scene.gradient, given, scene.condition_boundaries, time, force);
     else
@@ -91,7 +91,8 @@ namespace perideal
   void Simulation<dim>::apply_loads(const double time)
   {
     scene.mirror->set_time(scene.loads, time);
-    if (scene.face_values)
+    // Along nonlinear equilibria, values at faces move with the solver.
+    if (scene.face_values && !parameters.solver.is_nonlinear_static())
       scene.face_values->set_time(scene.loads, time);
     apply_forces(time);
     if (parameters.loads.displacement_treatment == "reference")

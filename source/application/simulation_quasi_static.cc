@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
+#include <perideal/fracture/floating_nodes.h>
 #include <perideal/solvers/newton.h>
 
 #include <utility>
@@ -14,7 +15,8 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const Timings::Scope part(timings, "setup: preconditioner");
-    scene.tangent        = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
+    if (!scene.correspondence)
+      scene.tangent = create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(scene.weights));
     scene.tangent_system = std::make_unique<ConstrainedOperator<dim>>(
       scene.tangent, scene.mirror, scene.unknowns(), scene.held.mask());
     // A load step takes about four solves.
@@ -41,6 +43,18 @@ namespace perideal
     controls.tolerance      = parameters.solver.tolerance;
     controls.max_iterations = parameters.solver.newton_iterations;
     controls.bonds_break    = can_break(parameters);
+    typename NewtonSolver<dim>::FindFloating find_floating;
+    if (controls.bonds_break || !scene.precracks.empty())
+      find_floating = [this]() {
+        std::vector<bool> is_lost(scene.force->bond_list().n_slots(), false);
+        for (const auto &bond : scene.force->lost_bonds())
+          is_lost[bond.slot] = true;
+        return find_floating_nodes(
+          *scene.families,
+          scene.force->bond_list(),
+          [&](const BondIndex slot) { return is_lost[slot]; },
+          scene.held.mask());
+      };
     NewtonSolver<dim> newton(*scene.force,
                              *scene.tangent,
                              *scene.tangent_system,
@@ -48,7 +62,9 @@ namespace perideal
                              scene.held,
                              scene.loads,
                              scene.null_space,
-                             controls);
+                             controls,
+                             by_nodes() ? nullptr : scene.face_values.get(),
+                             find_floating);
     run_load_steps(newton);
   }
 

@@ -4,6 +4,7 @@
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/fracture/fragments.h>
+#include <perideal/operators/correspondence_force.h>
 #include <perideal/output/summary.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 
@@ -90,7 +91,11 @@ namespace perideal
     weigh_bonds();
     prepare_comparisons();
     const Timings::Scope scope(timings, "setup");
-    scene.force = create_bond_force<dim>(*scene.weights);
+    if (scene.correspondence)
+      scene.force =
+        std::make_unique<CorrespondenceForce<dim>>(scene.families, scene.correspondence, scene.laws);
+    else
+      scene.force = create_bond_force<dim>(*scene.weights);
   }
 
   template <int dim>
@@ -114,7 +119,7 @@ namespace perideal
     try
       {
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
-          equilibrium_step(number, path);
+          load_step(number, path);
         if (scene.crack_tracker)
           scene.crack_tracker->write_paths(parameters.output_directory);
       }
@@ -127,32 +132,60 @@ namespace perideal
   }
 
   template <int dim>
-  void Simulation<dim>::equilibrium_step(const unsigned int number, EquilibriumPath<dim> &path)
+  EquilibriumStep
+  Simulation<dim>::find_equilibrium(const unsigned int number, const double time, EquilibriumPath<dim> &path)
   {
-    const double      time = static_cast<double>(number) / parameters.solver.load_steps;
-    const std::string what = "load step " + std::to_string(number) + " of " +
+    const Timings::Scope scope(timings, "solve");
+    const std::string    what = "load step " + std::to_string(number) + " of " +
                              std::to_string(parameters.solver.load_steps) + ", " +
                              std::to_string(path.n_broken()) + " broken bonds";
+    apply_loads(time);
+    scene.null_space.project(external_force);
+    ProgressLine progress(screen.get_stream(), screen.is_active(), what, parameters.solver.tolerance);
+    return path.step(external_force, time, [&](const unsigned int iteration, const double r) {
+      if (parameters.solver.is_quasi_static())
+        screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+      else
+        progress(iteration, r);
+    });
+  }
+
+  template <int dim>
+  void Simulation<dim>::load_step(const unsigned int number, EquilibriumPath<dim> &path)
+  {
+    const double end  = static_cast<double>(number) / parameters.solver.load_steps;
+    double       time = static_cast<double>(number - 1) / parameters.solver.load_steps, part = end - time;
     summary["solver"]["steps"] = number;
     EquilibriumStep result;
-    {
-      const Timings::Scope scope(timings, "solve");
-      apply_loads(time);
-      scene.null_space.project(external_force);
-      ProgressLine progress(screen.get_stream(), screen.is_active(), what, parameters.solver.tolerance);
-      result = path.step(external_force, time, [&](const unsigned int iteration, const double r) {
-        if (parameters.solver.is_quasi_static())
-          screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+    unsigned int    halvings = 0;
+    // Whole at first; after a failure in halves, each of which may be halved again.
+    while (time < end)
+      {
+        const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;
+        EquilibriumStep now  = find_equilibrium(number, next, path);
+        now.add_before(result);
+        result = now;
+        if (result.converged)
+          time = next;
+        else if ((halvings == parameters.solver.step_halvings || !parameters.solver.is_quasi_static()))
+          break;
         else
-          progress(iteration, r);
-      });
-    }
+          {
+            ++halvings;
+            part *= 0.5;
+            path.restore();
+            screen << "load step " << number << " from t = " << short_number(time) << " is halved"
+                   << std::endl;
+          }
+      }
+    summary["solver"]["halvings"].push_back(halvings);
     displacement = path.displacement;
     store_displacement();
     record_equilibrium(number, result, path);
     if (!result.converged)
-      throw ComputationError(describe_failure(parameters.solver, number, time, result, path.n_broken()));
-    write_fields(number, time);
+      throw ComputationError(
+        describe_failure(parameters.solver, number, std::min(end, time + part), result, path.n_broken()));
+    write_fields(number, end);
   }
 
   template <int dim>
@@ -184,8 +217,14 @@ namespace perideal
     history->add("external work [J]", energy.external);
     history->add("drift [-]", drift);
     history->add("broken bonds", path.n_broken());
-    record_reactions<dim>(
-      scene.loads, scene.held.sum_by_condition(path.reaction(), communicator), *history, summary);
+    auto reactions = scene.held.sum_by_condition(path.reaction(), communicator);
+    if (scene.face_values && !by_nodes())
+      {
+        const auto at_faces = scene.face_values->sum_by_condition(path.face_reaction(), communicator);
+        for (std::size_t k = 0; k < reactions.size(); ++k)
+          reactions[k] += at_faces[k];
+      }
+    record_reactions<dim>(scene.loads, reactions, *history, summary);
     if (scene.crack_tracker)
       {
         scene.crack_tracker->update(time, total_damage());
@@ -203,7 +242,8 @@ namespace perideal
       return;
     if (result.broken > 0 && !summary["damage"].contains("first_break_time"))
       summary["damage"]["first_break_time"] = time;
-    summary["damage"]["broken_bonds"] = path.n_broken();
+    summary["damage"]["broken_bonds"]   = path.n_broken();
+    summary["damage"]["floating_nodes"] = path.n_floating();
     if (result.broken > 0 || !summary["damage"].contains("fragments"))
       summary["damage"]["fragments"] = find_fragments(*scene.families,
                                                       scene.force->bond_list(),

@@ -151,7 +151,7 @@ namespace perideal
   {
     return [this](const dealii::types::material_id id) {
       const ElasticSolid<dim> &solid = scene.solids.at(id);
-      return parameters.model.is_tensor_involved() ?
+      return parameters.model.takes_any_symmetry() ?
                solid :
                ElasticSolid<dim>(parameters.model.constants_of_model(solid.isotropic()));
     };
@@ -162,18 +162,20 @@ namespace perideal
   {
     const Timings::Scope scope(timings, "setup");
     const auto           solid_of = solid_of_model();
-    if (parameters.model.is_linear_only() || needs_gradient(parameters.field_names()))
+    if (parameters.model.is_linear_only() || parameters.model.is_consistent() ||
+        needs_gradient(parameters.field_names()))
       make_gradient();
-    if (parameters.model.is_consistent())
+    if (parameters.model.is_correspondence())
+      make_correspondence();
+    else if (parameters.model.is_consistent())
       {
         const Timings::Scope part(timings, "setup: weights");
-        scene.consistent = std::make_shared<ConsistentOperator<dim>>(
+        scene.bonds = std::make_shared<ConsistentOperator<dim>>(
           scene.families,
           scene.gradient,
           scene.face_values,
           create_consistent<dim>(parameters.model, parameters.nodes.horizon_factor),
           solid_of);
-        scene.bonds = scene.consistent;
       }
     else if (parameters.quadrature.has_gauss_points())
       weigh_gauss_points();

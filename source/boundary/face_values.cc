@@ -16,7 +16,7 @@ namespace perideal
     const auto &points = gradient.boundary_points();
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Entry entry{p, points[p].point, {}, {}};
+        Entry entry{p, points[p].point, {}, {}, {}};
         entry.condition.fill(free);
         for (unsigned int k = 0; k < n_conditions; ++k)
           if (std::count(boundaries[k].begin(), boundaries[k].end(), points[p].boundary) > 0)
@@ -32,10 +32,48 @@ namespace perideal
   template <int dim>
   void FaceValues<dim>::set_time(const Loads<dim> &loads, const double time)
   {
+    prepare(loads, time);
+    move();
+  }
+
+  template <int dim>
+  void FaceValues<dim>::prepare(const Loads<dim> &loads, const double time)
+  {
     for (Entry &entry : list)
       for (int d = 0; d < dim; ++d)
         if (entry.condition[d] != free)
-          entry.value[d] = loads.conditions[entry.condition[d]].displacement[d].value(entry.position, time);
+          entry.increment[d] =
+            loads.conditions[entry.condition[d]].displacement[d].value(entry.position, time) - entry.value[d];
+  }
+
+  template <int dim>
+  void FaceValues<dim>::move()
+  {
+    for (Entry &entry : list)
+      {
+        entry.value += entry.increment;
+        entry.increment = 0.;
+      }
+  }
+
+  template <int dim>
+  void FaceValues<dim>::set_values(const std::vector<dealii::Tensor<1, dim>> &values)
+  {
+    AssertDimension(values.size(), list.size());
+    for (std::size_t e = 0; e < list.size(); ++e)
+      {
+        list[e].value     = values[e];
+        list[e].increment = 0.;
+      }
+  }
+
+  template <int dim>
+  double FaceValues<dim>::largest_increment() const
+  {
+    double result = 0;
+    for (const Entry &entry : list)
+      result = std::max(result, entry.increment.norm());
+    return result;
   }
 
   template <int dim>

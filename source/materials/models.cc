@@ -7,6 +7,7 @@
 #include <perideal/materials/models.h>
 #include <perideal/materials/ordinary.h>
 #include <perideal/materials/tensor_involved.h>
+#include <perideal/parameters/hyperelastic_law.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,26 +76,37 @@ namespace perideal
                       "What a bond does: bond based: springs, whose Poisson's ratio is 1/4 (plane stress "
                       "1/3); ordinary: state-based peridynamics without corrections; extended "
                       "ordinary: with multipliers that make families of any shape exact for uniform strain; "
-                      "tensor involved: springs with tensors for stiffness, for solids of any symmetry",
-                      Selection(selection(models<2>().names())));
-    prm.add_parameter("Form",
-                      form,
-                      "Force of the extended ordinary and the tensor involved model: automatic: consistent "
-                      "in statics, energy "
-                      "or moment corrected in dynamics; consistent: strain from the faces of the mesh, bonds "
-                      "stabilise, symmetric, the most accurate in statics. Extended ordinary: energy: the "
-                      "gradient of the strain "
-                      "energy over bonds, symmetric; paper: as published, not the gradient of an energy, "
-                      "non-symmetric. Tensor "
-                      "involved: one point: as published, made for full spheres; moment corrected: made for "
-                      "each family as its "
-                      "nodes stand; surface cure: that, with what bonds lack at free surfaces, in statics",
-                      Selection("automatic|consistent|" + selection(ExtendedOrdinary<2>::form_names()) + "|" +
-                                selection(TensorInvolved<2>::form_names())));
+                      "tensor involved: springs with tensors for stiffness, for solids of any symmetry; "
+                      "correspondence: non-ordinary, the stresses of any Law, at large strain too",
+                      Selection(selection(models<2>().names()) + "|correspondence"));
+    prm.add_parameter("Law",
+                      law,
+                      "Correspondence: stress by deformation: linear elastic: small strains; Saint "
+                      "Venant-Kirchhoff: linear in Green's strain; neo-Hookean: compressible, of isotropic "
+                      "materials",
+                      Selection(selection(law_names())));
+    prm.add_parameter(
+      "Form",
+      form,
+      "Force of the extended ordinary, the tensor involved and the correspondence model: "
+      "automatic: consistent "
+      "in statics and for correspondence where nothing breaks, else energy, "
+      "moment corrected or family; consistent: strain from the faces of the mesh, bonds "
+      "stabilise, symmetric, the most accurate in statics. Extended ordinary: energy: the "
+      "gradient of the strain "
+      "energy over bonds, symmetric; paper: as published, not the gradient of an energy, "
+      "non-symmetric. Tensor "
+      "involved: one point: as published, made for full spheres; moment corrected: made for "
+      "each family as its "
+      "nodes stand; surface cure: that, with what bonds lack at free surfaces, in statics. Correspondence: "
+      "family: the deformation gradient by the bonds of the family, as published",
+      Selection("automatic|consistent|" + selection(ExtendedOrdinary<2>::form_names()) + "|" +
+                selection(TensorInvolved<2>::form_names()) + "|family"));
     prm.add_parameter("Stabilisation",
                       stabilisation,
                       "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
-                      "in 3-D, where errors are smallest");
+                      "in 3-D, where errors are smallest. Correspondence: alpha of the penalty over Young's "
+                      "modulus, >= 0 [-], 0: none; automatic: 5 with Form = family, as published, else 0.5");
     prm.add_parameter(
       "Multipliers",
       multipliers,
@@ -139,14 +151,22 @@ namespace perideal
   void ModelParameters::resolve(const int dimension, const Use use)
   {
     if (form == "automatic")
-      form = use == Use::statics ? "consistent" : is_tensor_involved() ? "moment corrected" : "energy";
-    const auto own =
-      is_tensor_involved() ? TensorInvolved<2>::form_names() : ExtendedOrdinary<2>::form_names();
+      form = use == Use::statics || is_correspondence() ? "consistent" :
+             is_tensor_involved()                       ? "moment corrected" :
+                                                          "energy";
+    const auto own = own_forms();
     if (has_forms() && form != "consistent" && std::count(own.begin(), own.end(), form) == 0)
       throw InputError("this is no form of the model")
         .parameter("Material/Form")
         .given(form)
-        .allowed("automatic | consistent | " + join_choices(own) + " for Model = " + model);
+        .allowed("automatic | " + (is_correspondence() ? "" : std::string("consistent | ")) +
+                 join_choices(own) + " for Model = " + model);
+    if (law != "linear elastic" && !is_correspondence())
+      throw InputError("the bonds of this model have no law of the continuum")
+        .parameter("Material/Law")
+        .given(law)
+        .allowed("linear elastic for Model = " + model)
+        .hint("or set Material/Model = correspondence");
     if (stretch_formula == "automatic")
       stretch_formula = is_tensor_involved() ? "tensor involved" : "ordinary";
     if (stretch_formula == "tensor involved" && !is_tensor_involved())
@@ -165,7 +185,12 @@ namespace perideal
         .given(compensation_of_a_bond)
         .allowed("mean; or set Material/Boundary compensation = numerical | closed form");
     if (influence_function == "automatic")
-      influence_function = is_consistent() ? Consistent<2>::best_influence : "constant";
+      influence_function = is_correspondence() ? Correspondence<2>::published_influence :
+                           is_consistent()     ? Consistent<2>::best_influence :
+                                                 "constant";
+    if (stabilisation == "automatic" && is_correspondence())
+      stabilisation = std::to_string(is_consistent() ? Correspondence<2>::best_stabilisation :
+                                                       Correspondence<2>::published_stabilisation);
     if (stabilisation == "automatic")
       stabilisation = std::to_string(dimension == 2 ? Consistent<2>::best_stabilisation :
                                                       Consistent<3>::best_stabilisation);
@@ -181,11 +206,23 @@ namespace perideal
         .allowed("intact | after the cut; or set Material/Form = energy");
     char        *end   = nullptr;
     const double value = std::strtod(stabilisation.c_str(), &end);
-    if (stabilisation.empty() || *end != 0 || !(value > 0) || !std::isfinite(value))
+    if (stabilisation.empty() || *end != 0 || !(value >= 0) || !std::isfinite(value))
+      throw InputError("the stabilisation is not a number >= 0")
+        .parameter("Material/Stabilisation")
+        .given(stabilisation)
+        .allowed("automatic, or a number");
+    if (!(value > 0) && !is_correspondence())
       throw InputError("the stabilisation is not a positive number")
         .parameter("Material/Stabilisation")
         .given(stabilisation)
         .allowed("automatic, or a number > 0; without it the consistent form has modes without energy");
+  }
+
+  std::vector<std::string> ModelParameters::own_forms() const
+  {
+    return is_correspondence()  ? Correspondence<2>::form_names() :
+           is_tensor_involved() ? TensorInvolved<2>::form_names() :
+                                  ExtendedOrdinary<2>::form_names();
   }
 
   std::vector<std::string> ModelParameters::forms_of_motion() const
@@ -210,6 +247,13 @@ namespace perideal
   }
 
   template <int dim>
+  Correspondence<dim> create_correspondence(const ModelParameters &parameters)
+  {
+    return Correspondence<dim>(InfluenceFunction(parameters.influence_function),
+                               std::stod(parameters.stabilisation));
+  }
+
+  template <int dim>
   std::unique_ptr<LinearModel<dim>> create_model(const ModelParameters     &parameters,
                                                  const double               thickness,
                                                  const std::vector<double> &stiffening)
@@ -217,8 +261,10 @@ namespace perideal
     return models<dim>().get(parameters.model)(parameters, thickness, stiffening);
   }
 
-  template Consistent<2> create_consistent(const ModelParameters &, const double);
-  template Consistent<3> create_consistent(const ModelParameters &, const double);
+  template Consistent<2>     create_consistent(const ModelParameters &, const double);
+  template Consistent<3>     create_consistent(const ModelParameters &, const double);
+  template Correspondence<2> create_correspondence(const ModelParameters &);
+  template Correspondence<3> create_correspondence(const ModelParameters &);
   template std::unique_ptr<LinearModel<2>>
   create_model(const ModelParameters &, const double, const std::vector<double> &);
   template std::unique_ptr<LinearModel<3>>

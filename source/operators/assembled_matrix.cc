@@ -111,6 +111,8 @@ namespace perideal
     for (LocalIndex i = 0; i < dim * system.n_nodes(); ++i)
       if (system.is_held(i))
         matrix.add(owned.nth_index_in_set(i), owned.nth_index_in_set(i), largest_diagonal);
+      else if (!system.anchor_stiffness().empty())
+        matrix.add(owned.nth_index_in_set(i), owned.nth_index_in_set(i), system.anchor_stiffness()[i]);
     matrix.compress(dealii::VectorOperation::add);
   }
 

@@ -16,9 +16,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  BreakingBonds<dim>::BreakingBonds(const BondWeights<dim> &weights, const bool has_sums)
-    : families(weights.families)
-    , bonds(weights.bonds)
+  BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
+                                    const BondList                             &bonds,
+                                    const bool                                  has_sums)
+    : families(families)
+    , bonds(bonds)
     , rest_length(bonds.n_slots(), 0.)
     , regions(*families, bonds, has_sums)
   {

@@ -34,6 +34,9 @@ namespace perideal
     bonds->vmult(force, extended);
     for (std::size_t i = 0; i < held.size(); ++i)
       destination.local_element(i) = held[i] ? source.local_element(i) : force.local_element(i);
+    for (std::size_t i = 0; i < anchors.size(); ++i)
+      if (!held[i])
+        destination.local_element(i) += anchors[i] * source.local_element(i);
   }
 
   template <int dim>
@@ -59,6 +62,8 @@ namespace perideal
   {
     auto blocks = bonds->diagonal_blocks();
     blocks.resize(n_nodes());
+    for (std::size_t i = 0; i < anchors.size(); ++i)
+      blocks[i / dim][i % dim][i % dim] += anchors[i];
     for (LocalIndex i = 0; i < n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
         if (held[dim * i + d])

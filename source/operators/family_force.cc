@@ -12,7 +12,7 @@ namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
   FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &from)
-    : BreakingBonds<dim>(from, n_sums > 0)
+    : BreakingBonds<dim>(from.families, from.bonds, n_sums > 0)
   {
     take(from);
     if (n_sums > 0)

@@ -9,7 +9,7 @@ namespace perideal
 {
   template <int dim>
   TensorForce<dim>::TensorForce(const TensorWeights<dim> &weights)
-    : BreakingBonds<dim>(weights, false)
+    : BreakingBonds<dim>(weights.families, weights.bonds, false)
   {
     for (unsigned int p = 0; p < tensors.n_components; ++p)
       tensors.component[p].assign(weights.component[p].begin(), weights.component[p].end());

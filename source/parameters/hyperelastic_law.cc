@@ -128,9 +128,8 @@ namespace perideal
 
       double thickness_stretch(const Tensor<2, dim> &H) const override
       {
-        return dim == 3 ?
-                 1. :
-                 std::sqrt(std::max(0., 1. + 2. * solid.strain_in_space(green_strain(H))[2][2]));
+        return dim == 3 ? 1. :
+                          std::sqrt(std::max(0., 1. + 2. * solid.strain_in_space(green_strain(H))[2][2]));
       }
 
     private:
@@ -174,12 +173,12 @@ namespace perideal
         return mu * F + (lambda * log_of_volume(H) - mu) * G;
       }
 
-      /// mu delta_ik delta_JL + (mu - lambda ln J) G_iL G_kJ + lambda' G_iJ G_kL with G = F^-T. In plane stress
-      /// lambda' is lambda less what the change of the thickness takes.
+      /// mu delta_ik delta_JL + (mu - lambda ln J) G_iL G_kJ + lambda' G_iJ G_kL with G = F^-T. In plane
+      /// stress lambda' is lambda less what the change of the thickness takes.
       Tensor<4, dim> tangent(const Tensor<2, dim> &H) const override
       {
-        const Tensor<2, dim> G = transpose(invert(Kinematics::F(H)));
-        const double         log_J = log_of_volume(H);
+        const Tensor<2, dim> G      = transpose(invert(Kinematics::F(H)));
+        const double         log_J  = log_of_volume(H);
         double               second = lambda;
         if (is_plane_stress())
           {
@@ -191,8 +190,8 @@ namespace perideal
           for (int J = 0; J < dim; ++J)
             for (int k = 0; k < dim; ++k)
               for (int L = 0; L < dim; ++L)
-                result[i][J][k][L] = (i == k && J == L ? mu : 0.) + (mu - lambda * log_J) * G[i][L] * G[k][J] +
-                                     second * G[i][J] * G[k][L];
+                result[i][J][k][L] = (i == k && J == L ? mu : 0.) +
+                                     (mu - lambda * log_J) * G[i][L] * G[k][J] + second * G[i][J] * G[k][L];
         return result;
       }
 
@@ -216,8 +215,8 @@ namespace perideal
         double s = -lambda * log_area / (2. * mu + lambda);
         for (unsigned int k = 0; k < 50 && std::isfinite(s); ++k)
           {
-            const double square = std::exp(2. * s),
-                         change = (mu * (square - 1.) + lambda * (log_area + s)) / (2. * mu * square + lambda);
+            const double square = std::exp(2. * s), change = (mu * (square - 1.) + lambda * (log_area + s)) /
+                                                             (2. * mu * square + lambda);
             s -= change;
             if (std::abs(change) < 1e-14)
               return std::exp(s);

@@ -20,12 +20,19 @@ namespace perideal
                                         const ConstrainedOperator<dim> &system,
                                         const HeldNodes<dim>           &held,
                                         const Loads<dim>               &loads,
-                                        const Controls                 &controls)
+                                        const Controls                 &controls,
+                                        FaceValues<dim>                *face_values)
     : bonds(bonds)
     , held(held)
     , loads(loads)
     , controls(controls)
+    , face_values(face_values)
   {
+    if (face_values != nullptr)
+      {
+        face_support_force.resize(face_values->entries().size());
+        last_face_value.resize(face_values->entries().size());
+      }
     for (NodalVector *vector : {&displacement,
                                 &force,
                                 &earlier_force,
@@ -111,6 +118,23 @@ namespace perideal
   }
 
   template <int dim>
+  void EquilibriumPath<dim>::restore()
+  {
+    displacement = last_displacement;
+    if (face_values != nullptr)
+      face_values->set_values(last_face_value);
+  }
+
+  template <int dim>
+  double EquilibriumPath<dim>::face_reaction_square() const
+  {
+    double result = 0;
+    for (const auto &force : bonds.support_forces())
+      result += force.norm_square();
+    return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
+  }
+
+  template <int dim>
   GlobalIndex EquilibriumPath<dim>::break_bonds(const NodalVector &external)
   {
     bonds.judge_bonds(true);
@@ -144,6 +168,14 @@ namespace perideal
         work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
         support_force.local_element(k) = support;
         increment.local_element(k) += moved;
+      }
+    const auto at_faces = bonds.support_forces();
+    for (std::size_t e = 0; e < at_faces.size(); ++e)
+      {
+        const dealii::Tensor<1, dim> &value = face_values->entries()[e].value;
+        work += 0.5 * ((at_faces[e] + face_support_force[e]) * (value - last_face_value[e]));
+        face_support_force[e] = at_faces[e];
+        last_face_value[e]    = value;
       }
     work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
     budget.external += work;

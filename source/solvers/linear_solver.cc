@@ -47,6 +47,12 @@ namespace perideal
       "anew after every break",
       Integer(1));
     prm.add_parameter(
+      "Step halvings",
+      step_halvings,
+      "Times that a load step of quasi static that fails is halved, or a part of it that fails again; 0: it "
+      "fails at once",
+      Integer(0, 30));
+    prm.add_parameter(
       "Linear solver",
       linear_solver,
       "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "

@@ -15,23 +15,29 @@ namespace perideal
     constexpr double slope_left = 0.5;
     /// Forces of one search.
     constexpr unsigned int max_trials = 20;
+    /// Stiffness of the springs that hold loose nodes over that of the nodes in the whole body.
+    constexpr double anchor_share = 1e-8;
   } // namespace
 
   template <int dim>
-  NewtonSolver<dim>::NewtonSolver(BondForce<dim>                 &bonds,
-                                  TangentOperator<dim>           &tangent,
-                                  const ConstrainedOperator<dim> &system,
-                                  TangentSolver<dim>             &linear,
-                                  const HeldNodes<dim>           &held,
-                                  const Loads<dim>               &loads,
-                                  const NullSpace<dim>           &null_space,
-                                  const Controls                 &controls)
-    : EquilibriumPath<dim>(bonds, system, held, loads, controls)
+  NewtonSolver<dim>::NewtonSolver(BondForce<dim>           &bonds,
+                                  TangentOperator<dim>     &tangent,
+                                  ConstrainedOperator<dim> &system,
+                                  TangentSolver<dim>       &linear,
+                                  const HeldNodes<dim>     &held,
+                                  const Loads<dim>         &loads,
+                                  const NullSpace<dim>     &null_space,
+                                  const Controls           &controls,
+                                  FaceValues<dim>          *face_values,
+                                  const FindFloating       &find_floating)
+    : EquilibriumPath<dim>(bonds, system, held, loads, controls, face_values)
     , tangent(tangent)
+    , system(system)
     , linear(linear)
     , null_space(null_space)
+    , find_floating(find_floating)
   {
-    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness})
+    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness, &anchor_place})
       bonds.initialize(*vector);
     system.initialize(residual);
     system.initialize(correction);
@@ -40,6 +46,30 @@ namespace perideal
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
         rest_stiffness.local_element(dim * i + d) = 0.5 * blocks[i][d][d];
+    // Precracks may have cut pieces off.
+    anchor();
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::anchor()
+  {
+    if (!find_floating)
+      return;
+    const std::vector<bool> floats = find_floating();
+    const auto              count  = static_cast<GlobalIndex>(std::count(floats.begin(), floats.end(), true));
+    n_anchored                     = dealii::Utilities::MPI::sum(count, displacement.get_mpi_communicator());
+    if (n_anchored == 0)
+      return;
+    std::vector<double> springs = system.anchor_stiffness();
+    springs.resize(dim * system.n_nodes(), 0.);
+    for (LocalIndex i = 0; i < floats.size(); ++i)
+      for (LocalIndex k = dim * i; k < dim * (i + 1); ++k)
+        if (floats[i] && springs[k] == 0.)
+          {
+            springs[k]                    = anchor_share * rest_stiffness.local_element(k);
+            anchor_place.local_element(k) = displacement.local_element(k);
+          }
+    system.set_anchors(springs);
   }
 
   template <int dim>
@@ -48,7 +78,14 @@ namespace perideal
     held_increment = displacement;
     held.set_boundary_values(this->loads, time, held_increment);
     held_increment -= displacement;
-    in_place = held_increment.linfty_norm() == 0.;
+    double largest = held_increment.linfty_norm();
+    if (this->face_values != nullptr)
+      {
+        this->face_values->prepare(this->loads, time);
+        largest += dealii::Utilities::MPI::max(this->face_values->largest_increment(),
+                                               displacement.get_mpi_communicator());
+      }
+    in_place = largest == 0.;
     this->set_rounding(rest_stiffness);
   }
 
@@ -58,6 +95,11 @@ namespace perideal
     const auto &is_held = held.mask();
     for (std::size_t k = 0; k < is_held.size(); ++k)
       residual.local_element(k) = is_held[k] ? 0. : force.local_element(k) + external.local_element(k);
+    const std::vector<double> &springs = system.anchor_stiffness();
+    for (std::size_t k = 0; k < springs.size(); ++k)
+      if (!is_held[k])
+        residual.local_element(k) -=
+          springs[k] * (displacement.local_element(k) - anchor_place.local_element(k));
     null_space.project(residual);
   }
 
@@ -78,6 +120,7 @@ namespace perideal
         // The supports pull before they move.
         tangent.linearise(this->bonds);
         tangent.vmult(correction, held_increment);
+        tangent.add_increments(correction);
         for (std::size_t k = 0; k < is_held.size(); ++k)
           if (!is_held[k])
             residual.local_element(k) -= correction.local_element(k);
@@ -85,8 +128,8 @@ namespace perideal
       }
     const MPI_Comm communicator = displacement.get_mpi_communicator();
     norms.residual              = residual.norm_sqr();
-    norms.reaction              = dealii::Utilities::MPI::sum(squares[0], communicator);
-    norms.load                  = dealii::Utilities::MPI::sum(squares[1], communicator);
+    norms.reaction = dealii::Utilities::MPI::sum(squares[0], communicator) + this->face_reaction_square();
+    norms.load     = dealii::Utilities::MPI::sum(squares[1], communicator);
     return norms;
   }
 
@@ -120,6 +163,8 @@ namespace perideal
       }
     displacement += correction;
     displacement += held_increment;
+    if (this->face_values != nullptr)
+      this->face_values->move();
     in_place = true;
     this->compute_forces();
     return true;

@@ -11,7 +11,10 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
+#include <iomanip>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <vector>
 
 /// Small bodies that several rooms are tested on.
@@ -27,6 +30,25 @@ namespace perideal::test
       phase += (12.9898 + 7.1 * d) * point[d];
     const double value = 43758.5453 * std::sin(phase);
     return 2 * (value - std::floor(value)) - 1;
+  }
+
+  /// A number as a formula, with all its digits.
+  inline std::string formula(const double value)
+  {
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(17) << "(" << value << ")";
+    return text.str();
+  }
+
+  /// A component of the linear field of a gradient as a formula of the place.
+  template <int dim>
+  std::string formula(const dealii::Tensor<2, dim> &gradient, const unsigned int component)
+  {
+    const char *const axes[] = {"x", "y", "z"};
+    std::string       text;
+    for (int d = 0; d < dim; ++d)
+      text += (d == 0 ? "" : " + ") + formula(gradient[component][d]) + "*" + axes[d];
+    return text;
   }
 
   /// A box of cells with corner at the origin, its inner vertices moved by up

@@ -133,6 +133,9 @@ namespace perideal
     /// @throws InputError on those that do not go with the model or the solver.
     void resolve_tractions();
 
+    /// @throws InputError on what does not go with the correspondence model.
+    void check_correspondence() const;
+
     /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
     void check_dynamics() const;
     void check_nonlinear_statics() const;

@@ -21,10 +21,12 @@
 #include <perideal/operators/consistent_operator.h>
 #include <perideal/operators/constrained_operator.h>
 #include <perideal/operators/contact_force.h>
+#include <perideal/operators/correspondence_rows.h>
 #include <perideal/operators/null_space.h>
 #include <perideal/operators/relative_damping.h>
 #include <perideal/operators/tangent_operator.h>
 #include <perideal/operators/taylor_ghosts.h>
+#include <perideal/parameters/hyperelastic_law.h>
 #include <perideal/quadrature/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
 #include <perideal/solvers/tangent_solver.h>
@@ -80,8 +82,9 @@ namespace perideal
     /// What became of the families, of all ranks and by owned node.
     FamilyCounts              family_counts;
     std::vector<FamilyReport> family_reports;
-    /// The same object as bonds, where the form is consistent.
-    std::shared_ptr<ConsistentOperator<dim>> consistent;
+    /// Of the correspondence model, in the place of weights.
+    LawsByMaterial<dim>                      laws;
+    std::shared_ptr<CorrespondenceRows<dim>> correspondence;
     /// C of whole families by their quadrature [Pa], where the scene needs it.
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
     /// The same object as bonds, where ghosts stand for the bonds that are missing.

@@ -63,6 +63,7 @@ namespace perideal
     void make_gradient();
     void weigh_bonds();
     void weigh_gauss_points();
+    void make_correspondence();
     /// Factors that stiffen bonds near the surface, by owned node; empty where the scene has none.
     /// Collective.
     /// @param points of the cells; null: one point each
@@ -141,11 +142,16 @@ namespace perideal
     void prepare_equilibria(const std::string &solver);
     void run_relaxation();
     void run_quasi_static();
+    /// Strengths of the bonds that break by stress.
+    void set_strengths();
     /// The tangent and what solves with it, in the body before anything is cut.
     void set_up_tangent();
     /// Load steps, with what they leave behind.
     void run_load_steps(EquilibriumPath<dim> &path);
-    void equilibrium_step(const unsigned int number, EquilibriumPath<dim> &path);
+    /// A load step, in parts where it fails as a whole.
+    void load_step(const unsigned int number, EquilibriumPath<dim> &path);
+    EquilibriumStep
+         find_equilibrium(const unsigned int number, const double time, EquilibriumPath<dim> &path);
     void record_equilibrium(const unsigned int          number,
                             const EquilibriumStep      &result,
                             const EquilibriumPath<dim> &path);

@@ -38,11 +38,22 @@ namespace perideal
       std::array<unsigned int, dim> condition;
       /// Prescribed values [m]; 0 where free.
       dealii::Tensor<1, dim> value;
+      /// What they have still to move [m].
+      dealii::Tensor<1, dim> increment;
     };
     const std::vector<Entry> &entries() const { return list; }
 
     /// Evaluates the conditions.
     void set_time(const Loads<dim> &loads, const double time);
+
+    /// Finds how far the values have to move until a time, without moving them.
+    void prepare(const Loads<dim> &loads, const double time);
+    /// Moves the values by their increments.
+    void move();
+    /// Puts the values of all entries back [m], without increments.
+    void set_values(const std::vector<dealii::Tensor<1, dim>> &values);
+    /// The largest increment of this rank [m].
+    double largest_increment() const;
 
     /// Sums by condition of forces on the body [N] at the entries. Collective.
     std::vector<dealii::Tensor<1, dim>> sum_by_condition(const std::vector<dealii::Tensor<1, dim>> &forces,

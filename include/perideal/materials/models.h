@@ -3,6 +3,7 @@
 #define perideal_materials_models_h
 
 #include <perideal/materials/consistent.h>
+#include <perideal/materials/correspondence.h>
 #include <perideal/materials/linear_model.h>
 #include <perideal/parameters/elastic_constants.h>
 
@@ -21,6 +22,8 @@ namespace perideal
     std::string form               = "automatic";
     std::string influence_function = "automatic";
     std::string stabilisation      = "automatic";
+    /// Of the correspondence model: linear elastic | Saint Venant-Kirchhoff | neo-Hookean.
+    std::string law = "linear elastic";
     /// intact | after the cut | recomputed: whether multipliers are those of families with the bonds that
     /// precracks cut, and that broke.
     std::string multipliers = "intact";
@@ -47,8 +50,11 @@ namespace perideal
     /// model without.
     void resolve(const int dimension, const Use use = Use::statics);
 
-    /// The consistent form, which needs the face gradient of the mesh and is no LinearModel.
+    /// Takes the strain from the face gradient of the mesh, and boundary conditions at faces.
     bool is_consistent() const { return has_forms() && form == "consistent"; }
+
+    /// Stresses of any law of the continuum; no LinearModel.
+    bool is_correspondence() const { return model == "correspondence"; }
 
     /// Bonds for solids of any symmetry.
     bool is_tensor_involved() const { return model == "tensor involved"; }
@@ -60,11 +66,20 @@ namespace perideal
     std::vector<std::string> forms_of_motion() const;
 
     /// Forms that are linear and of statics only.
-    bool is_linear_only() const { return is_consistent() || has_surface_cure(); }
+    bool is_linear_only() const { return (is_consistent() && !is_correspondence()) || has_surface_cure(); }
 
     bool compensates() const { return boundary_compensation != "none"; }
 
-    bool has_forms() const { return model == "extended ordinary" || is_tensor_involved(); }
+    bool has_forms() const
+    {
+      return model == "extended ordinary" || is_tensor_involved() || is_correspondence();
+    }
+
+    /// Solids without isotropy.
+    bool takes_any_symmetry() const { return is_tensor_involved() || is_correspondence(); }
+
+    /// Names of the model's own forms.
+    std::vector<std::string> own_forms() const;
 
     bool after_the_cut() const { return multipliers != "intact"; }
     bool recomputes() const { return multipliers == "recomputed"; }
@@ -78,6 +93,10 @@ namespace perideal
   /// @param horizon_factor horizon over spacing [-]
   template <int dim>
   Consistent<dim> create_consistent(const ModelParameters &parameters, const double horizon_factor);
+
+  /// The correspondence model, of resolved parameters.
+  template <int dim>
+  Correspondence<dim> create_correspondence(const ModelParameters &parameters);
 
   /// Any other model, of resolved parameters.
   /// @param thickness of a two-dimensional body [m], 1 in 3-D

@@ -57,6 +57,10 @@ namespace perideal
     /// @param displacement of owned nodes [m]
     virtual void compute(NodalVector &force, const NodalVector &displacement) = 0;
 
+    /// Forces that supports exert on the body at prescribed face values at the last compute() [N], by entry
+    /// of FaceValues; none where the force carries none.
+    virtual std::vector<dealii::Tensor<1, dim>> support_forces() const { return {}; }
+
     /// Receives a bond's nodes (the first owned) and the force it puts on the first [N].
     using VisitBond = std::function<void(const LocalIndex, const LocalIndex, const dealii::Tensor<1, dim> &)>;
 

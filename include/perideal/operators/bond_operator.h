@@ -34,6 +34,10 @@ namespace perideal
       vmult(force, displacement);
     }
 
+    /// Forces that supports exert on the body at such boundary values [N], by entry of FaceValues, after
+    /// internal_force(); none where the operator carries none.
+    virtual std::vector<dealii::Tensor<1, dim>> support_forces() const { return {}; }
+
     /// The dim x dim blocks on the diagonal of K, by owned node [N/m]. Collective.
     virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
 

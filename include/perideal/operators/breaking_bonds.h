@@ -35,7 +35,9 @@ namespace perideal
 
   protected:
     /// @param has_sums whether forces need sums over families first
-    BreakingBonds(const BondWeights<dim> &weights, const bool has_sums);
+    BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
+                  const BondList                             &bonds,
+                  const bool                                  has_sums);
 
     /// False of padding, and of bonds that were cut or broke.
     virtual bool carries_force(const BondIndex slot) const = 0;

@@ -58,7 +58,7 @@ namespace perideal
 
     /// Forces that the supports exert on the body at the prescribed face values
     /// [N], by entry, after internal_force().
-    std::vector<dealii::Tensor<1, dim>> support_forces() const;
+    std::vector<dealii::Tensor<1, dim>> support_forces() const override;
 
   private:
     static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;

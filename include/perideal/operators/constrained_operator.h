@@ -13,7 +13,8 @@ namespace perideal
   /**
    * The linear system of a static scene over the displacements of the real
    * nodes: the bond operator with fictitious nodes eliminated and with held
-   * components taken out (their rows and columns are those of the identity).
+   * components taken out (their rows and columns are those of the identity). Springs may anchor unknowns
+   * that nothing else holds.
    */
   template <int dim>
   class ConstrainedOperator
@@ -25,6 +26,10 @@ namespace perideal
                         const std::shared_ptr<const MirrorLayer<dim>>  &mirror,
                         const NodeCloud<dim>                           &nodes,
                         const std::vector<std::uint8_t>                &held);
+
+    /// Springs between free components and where they are, by dim*node + component [N/m]; empty: none.
+    void                       set_anchors(const std::vector<double> &stiffness) { anchors = stiffness; }
+    const std::vector<double> &anchor_stiffness() const { return anchors; }
 
     /// The homogeneous part, for linear solvers.
     void vmult(NodalVector &destination, const NodalVector &source) const;
@@ -59,6 +64,7 @@ namespace perideal
     std::shared_ptr<const BondOperator<dim>>                   bonds;
     std::shared_ptr<const MirrorLayer<dim>>                    mirror;
     std::vector<std::uint8_t>                                  held;
+    std::vector<double>                                        anchors;
     GlobalIndex                                                first_global_node, n_global_nodes;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     mutable NodalVector                                        masked, extended, force;

@@ -31,6 +31,10 @@ namespace perideal
     /// Takes the state of the last compute() of the force, which is of the same weights. Until the first
     /// call the body is at rest and has all its bonds.
     virtual void linearise(const BondForce<dim> &force) = 0;
+
+    /// Adds the force [N] by what prescribed face values, which the operator itself carries, have still to
+    /// move; nothing where it carries none. Collective.
+    virtual void add_increments(NodalVector &) const {}
   };
 
   /// The tangent of the force of weighed bonds, which it shares.

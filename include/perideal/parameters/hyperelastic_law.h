@@ -50,8 +50,7 @@ namespace perideal
 
   /// Laws by material id.
   template <int dim>
-  using LawsByMaterial =
-    std::map<dealii::types::material_id, std::shared_ptr<const HyperelasticLaw<dim>>>;
+  using LawsByMaterial = std::map<dealii::types::material_id, std::shared_ptr<const HyperelasticLaw<dim>>>;
 
   /// The laws that there are: linear elastic, Saint Venant-Kirchhoff, neo-Hookean.
   std::vector<std::string> law_names();

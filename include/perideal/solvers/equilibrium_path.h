@@ -2,6 +2,7 @@
 #ifndef perideal_solvers_equilibrium_path_h
 #define perideal_solvers_equilibrium_path_h
 
+#include <perideal/boundary/face_values.h>
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/constrained_operator.h>
@@ -26,6 +27,15 @@ namespace perideal
     std::vector<double> residuals;
     /// Why it went no further, where the solver knows; else empty.
     std::string problem;
+
+    /// Counts the work of earlier attempts and parts of the step to this one.
+    void add_before(const EquilibriumStep &earlier)
+    {
+      iterations += earlier.iterations;
+      linear_iterations += earlier.linear_iterations;
+      broken += earlier.broken;
+      residuals.insert(residuals.begin(), earlier.residuals.begin(), earlier.residuals.end());
+    }
   };
 
   /**
@@ -74,18 +84,27 @@ namespace perideal
     const EnergyBudget &energy() const { return budget; }
     /// Forces of the supports at the last equilibrium [N], zero in free components.
     const NodalVector &reaction() const { return support_force; }
-    GlobalIndex        n_broken() const { return broken; }
+    /// Those at prescribed values of faces [N], by entry.
+    const std::vector<dealii::Tensor<1, dim>> &face_reaction() const { return face_support_force; }
+    GlobalIndex                                n_broken() const { return broken; }
+    /// Nodes of all ranks that came loose, and are held where they were.
+    virtual GlobalIndex n_floating() const { return 0; }
+
+    /// Goes back to the last equilibrium, for another attempt at the next; what broke stays broken.
+    void restore();
 
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;
 
   protected:
     /// The arguments but the system, which gives the nodes, must outlive this object.
+    /// @param face_values that the force carries, which this object moves; null: none
     EquilibriumPath(BondForce<dim>                 &bonds,
                     const ConstrainedOperator<dim> &system,
                     const HeldNodes<dim>           &held,
                     const Loads<dim>               &loads,
-                    const Controls                 &controls);
+                    const Controls                 &controls,
+                    FaceValues<dim>                *face_values = nullptr);
 
     /// Squared norms of forces, of all ranks.
     struct Norms
@@ -110,10 +129,14 @@ namespace perideal
     /// have these stiffnesses by component [N/m].
     void set_rounding(const NodalVector &stiffness);
 
+    /// Sum of the squared forces at prescribed face values [N^2]. Collective.
+    double face_reaction_square() const;
+
     BondForce<dim>       &bonds;
     const HeldNodes<dim> &held;
     const Loads<dim>     &loads;
     const Controls        controls;
+    FaceValues<dim>      *face_values;
 
     /// Of the bonds, now and before [N].
     NodalVector force, earlier_force;
@@ -135,6 +158,8 @@ namespace perideal
     /// At the last equilibrium.
     NodalVector last_displacement, last_external, support_force;
     bool        broke_in_segment = false;
+    /// Forces and values at faces at the last equilibrium.
+    std::vector<dealii::Tensor<1, dim>> face_support_force, last_face_value;
 
     EnergyBudget budget;
     GlobalIndex  broken = 0;

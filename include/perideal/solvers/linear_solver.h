@@ -28,6 +28,8 @@ namespace perideal
     unsigned int load_steps     = 1;
     /// Newton iterations of an equilibrium.
     unsigned int newton_iterations = 25;
+    /// Times that a load step may be halved before it has failed.
+    unsigned int step_halvings = 5;
 
     /// Of dynamics [s]; step 0: chosen.
     double end_time = 0, time_step = 0;

@@ -24,6 +24,10 @@ namespace perideal
    * Otherwise the step is shortened towards d.r = 0. Where d.r is not positive at the start, the tangent is
    * not positive definite there and |r| alone counts.
    *
+   * Where bonds break, pieces may come loose, which no tangent holds: springs of a 1e-8th of their stiffness
+   * hold each of their nodes where it was then. No load acts on them but what they are loaded with
+   * themselves.
+   *
    * The motions that a scene leaves free are taken from residuals and steps, as in statics: in their
    * direction, the balance is that of the undeformed body.
    *
@@ -38,24 +42,36 @@ namespace perideal
   public:
     using typename EquilibriumPath<dim>::Controls;
 
+    /// Tells by owned node what came loose of the supports. Collective.
+    using FindFloating = std::function<std::vector<bool>()>;
+
     /// @param tangent of the force, the operator behind @p system and @p linear. The arguments must
     /// outlive this object. Collective.
-    NewtonSolver(BondForce<dim>                 &bonds,
-                 TangentOperator<dim>           &tangent,
-                 const ConstrainedOperator<dim> &system,
-                 TangentSolver<dim>             &linear,
-                 const HeldNodes<dim>           &held,
-                 const Loads<dim>               &loads,
-                 const NullSpace<dim>           &null_space,
-                 const Controls                 &controls);
+    /// @param find_floating empty where nothing breaks
+    NewtonSolver(BondForce<dim>           &bonds,
+                 TangentOperator<dim>     &tangent,
+                 ConstrainedOperator<dim> &system,
+                 TangentSolver<dim>       &linear,
+                 const HeldNodes<dim>     &held,
+                 const Loads<dim>         &loads,
+                 const NullSpace<dim>     &null_space,
+                 const Controls           &controls,
+                 FaceValues<dim>          *face_values   = nullptr,
+                 const FindFloating       &find_floating = {});
 
     using EquilibriumPath<dim>::displacement;
+
+    /// Nodes of all ranks that springs hold.
+    GlobalIndex n_floating() const override { return n_anchored; }
 
   private:
     void                                 start_step(const double time) override;
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
     bool                                 is_in_place() const override { return in_place; }
     bool iterate(const NodalVector &external, EquilibriumStep &result) override;
+    void forget_motion() override { anchor(); }
+    /// Holds what came loose. Collective.
+    void anchor();
 
     /// External and internal force of free components, motions that are free taken out.
     void   compute_residual(const NodalVector &external);
@@ -66,9 +82,14 @@ namespace perideal
     using EquilibriumPath<dim>::force;
     using EquilibriumPath<dim>::held;
 
-    TangentOperator<dim> &tangent;
-    TangentSolver<dim>   &linear;
-    const NullSpace<dim> &null_space;
+    TangentOperator<dim>     &tangent;
+    ConstrainedOperator<dim> &system;
+    TangentSolver<dim>       &linear;
+    const NullSpace<dim>     &null_space;
+    const FindFloating        find_floating;
+    /// Where the springs are at rest [m].
+    NodalVector anchor_place;
+    GlobalIndex n_anchored = 0;
 
     /// What held components have still to move.
     NodalVector                          held_increment;

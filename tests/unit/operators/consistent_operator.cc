@@ -96,25 +96,12 @@ namespace
       BoundaryConditionText result;
       result.name = result.boundary = std::to_string(id);
       for (int d = 0; d < dim; ++d)
-        result.traction[d] = number((id % 2 == 0 ? -1. : 1.) * stress[d][id / 2]);
+        result.traction[d] = test::formula((id % 2 == 0 ? -1. : 1.) * stress[d][id / 2]);
       return result;
     }
 
     /// The component of the displacement as a formula.
-    std::string formula(const unsigned int component) const
-    {
-      std::string text;
-      for (int d = 0; d < dim; ++d)
-        text += (d == 0 ? "" : " + ") + number(gradient[component][d]) + "*" + axes[d];
-      return text;
-    }
-
-    static std::string number(const double value)
-    {
-      std::ostringstream text;
-      text << std::scientific << std::setprecision(17) << "(" << value << ")";
-      return text.str();
-    }
+    std::string formula(const unsigned int component) const { return test::formula(gradient, component); }
 
     dealii::Tensor<2, dim>          gradient;
     dealii::SymmetricTensor<2, dim> stress;
@@ -210,7 +197,7 @@ namespace
         if (id != 1)
           text.conditions[id].displacement[id / 2] = "0";
         else
-          text.conditions[id].traction[0] = Patch<dim>::number(pull);
+          text.conditions[id].traction[0] = test::formula(pull);
       }
     LoadedBody<dim> loaded(*mesh, text, {materials[0], materials[1]});
     EXPECT_LE(loaded.residual([&](const dealii::Point<dim> &x) {

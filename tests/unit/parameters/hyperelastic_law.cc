@@ -91,11 +91,10 @@ namespace
       EXPECT_NEAR(law.thickness_stretch(Gradient<dim>()), 1., 1e-12);
       // Small strains: the Cauchy stress is that of Hooke's law in space.
       Gradient<dim> H;
-      H[0][0] = 3e-7;
-      H[1][1] = -1e-7;
-      H[0][1] = 2e-7;
-      const auto expected =
-        solid.stiffness_in_space() * solid.strain_in_space(dealii::symmetrize(H));
+      H[0][0]             = 3e-7;
+      H[1][1]             = -1e-7;
+      H[0][1]             = 2e-7;
+      const auto expected = solid.stiffness_in_space() * solid.strain_in_space(dealii::symmetrize(H));
       EXPECT_NEAR((law.cauchy_stress(H) - expected).norm(), 0., 1e-6 * expected.norm());
     });
   }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/correspondence.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    /// The smallest eigenvalue of a shape tensor, over that of the whole family, with which its inverse is
+    /// still one: a half family keeps about half, bonds along a line none.
+    constexpr double least_share = 0.05;
+  } // namespace
+
+  template <int dim>
+  Correspondence<dim>::Correspondence(const InfluenceFunction &influence, const double stabilisation)
+    : influence(influence)
+    , stabilisation(stabilisation)
+  {
+  }
+
+  template <int dim>
+  void Correspondence<dim>::compute(const FamilyView<dim>                        &family,
+                                    const double                                  young_modulus,
+                                    const std::function<bool(const LocalIndex k)> &is_gone,
+                                    Weights                                      &weights) const
+  {
+    const auto bond = [&](const LocalIndex k) {
+      dealii::Tensor<1, dim> xi;
+      for (int d = 0; d < dim; ++d)
+        xi[d] = family.bond[d][k];
+      return xi;
+    };
+    weights.gradient.assign(family.size, dealii::Tensor<1, dim>());
+    weights.penalty.assign(family.size, 0.);
+
+    // w_ij V_j, and K of all members and of those that are left.
+    dealii::SymmetricTensor<2, dim> whole, shape;
+    for (LocalIndex k = 0; k < family.size; ++k)
+      {
+        const double weight =
+          family.volume[k] *
+          influence.value(std::sqrt(family.length_square[k]), family.horizon, family.bond_horizon[k]);
+        const auto share = weight * symmetrize(outer_product(bond(k), bond(k)));
+        whole += share;
+        if (is_gone && is_gone(k))
+          continue;
+        shape += share;
+        weights.penalty[k] = weight;
+      }
+    const auto   eigenvalues = dealii::eigenvalues(shape);
+    const double smallest    = eigenvalues[dim - 1];
+    weights.has_gradient     = smallest > least_share * dealii::eigenvalues(whole)[dim - 1];
+    const dealii::Tensor<2, dim> inverse =
+      weights.has_gradient ? dealii::Tensor<2, dim>(invert(shape)) : dealii::Tensor<2, dim>();
+    // beta V_i
+    const double factor =
+      whole.norm() > 0 ? family.node_volume * stabilisation * young_modulus / whole.norm() : 0.;
+    for (LocalIndex k = 0; k < family.size; ++k)
+      {
+        weights.gradient[k] = weights.penalty[k] * (inverse * bond(k));
+        weights.penalty[k] *= factor;
+      }
+  }
+
+  template class Correspondence<2>;
+  template class Correspondence<3>;
+} // namespace perideal
