@@ -32,6 +32,7 @@ namespace perideal
           .given(properties.symmetry.name)
           .allowed("isotropic; or set Material/Model = tensor involved | correspondence");
     };
+    check_failure();
     check_symmetry(material.body);
     for (const auto &group : material.groups)
       check_symmetry(group.second);
@@ -78,6 +79,27 @@ namespace perideal
     check_quadrature();
     resolve_tractions();
     check_ghosts();
+  }
+
+  void SceneParameters::check_failure() const
+  {
+    const bool by_stress = model.model == "correspondence";
+    if (material.has_criterion() && !by_stress)
+      throw InputError("the bonds of this model break by stretch")
+        .parameter("Material/Failure criterion")
+        .given(material.failure_criterion)
+        .allowed("none for Model = " + model.model)
+        .hint("set Material/Fracture energy or Critical stretch");
+    const auto check = [&](const MaterialProperties &properties, const std::string &section) {
+      if (by_stress && (properties.fracture_energy > 0 || properties.critical_stretch > 0))
+        throw InputError("the bonds of this model break by stress")
+          .parameter(section + (properties.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
+          .allowed("0 for Model = correspondence")
+          .hint("set Material/Failure criterion and Tensile strength");
+    };
+    check(material.body, "Material");
+    for (const auto &group : material.groups)
+      check(group.second, "Material/" + group.first);
   }
 
   void SceneParameters::check_quadrature() const

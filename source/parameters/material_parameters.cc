@@ -34,6 +34,12 @@ namespace perideal
       declare("Critical stretch",
               properties.critical_stretch,
               "Stretch at which bonds break >= 0 [-]; 0: from the fracture energy");
+      declare("Tensile strength",
+              properties.tensile_strength,
+              "Strength in uniaxial tension f_t >= 0 [Pa], of a Failure criterion; 0: unbreakable");
+      declare("Compressive strength",
+              properties.compressive_strength,
+              "Strength in uniaxial compression f_c >= f_t [Pa], of Failure criterion = Mohr-Coulomb");
     }
 
     void check_properties(const MaterialProperties &properties,
@@ -67,6 +73,14 @@ namespace perideal
         throw InputError("the fracture energy must not be negative")
           .parameter(section + "/Fracture energy")
           .allowed("a number >= 0");
+      if (!(properties.tensile_strength >= 0))
+        throw InputError("the tensile strength must not be negative")
+          .parameter(section + "/Tensile strength")
+          .allowed("a number >= 0");
+      if (!(properties.compressive_strength >= 0))
+        throw InputError("the compressive strength must not be negative")
+          .parameter(section + "/Compressive strength")
+          .allowed("a number >= 0, the size of the stress");
     }
   } // namespace
 
@@ -77,6 +91,14 @@ namespace perideal
                       assumption,
                       "How a 2-D body stands in space; without meaning in 3-D",
                       dealii::Patterns::Selection("plane stress|plane strain"));
+    prm.add_parameter(
+      "Failure criterion",
+      failure_criterion,
+      "By which stress bonds of Model = correspondence break, the mean of that at their ends: "
+      "none; maximum tensile stress: where the largest principal stress reaches Tensile "
+      "strength; Mohr-Coulomb: where sigma_1/f_t - sigma_3/f_c reaches 1, which has both "
+      "strengths. Principal stresses are those in space. Bonds of other models break by stretch",
+      dealii::Patterns::Selection("none|maximum tensile stress|Mohr-Coulomb"));
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
@@ -91,14 +113,42 @@ namespace perideal
   {
     const auto check = [&](const MaterialProperties &material, const std::string &section) {
       check_properties(material, section, assumption);
+      check_strengths(material, section);
       if (dim == 2)
         elastic_solid<2>(material);
       else
         elastic_solid<3>(material);
     };
     check(body, "Material");
+    bool has_strength = body.tensile_strength > 0;
     for (const auto &group : groups)
-      check(group.second, "Material/" + group.first);
+      {
+        check(group.second, "Material/" + group.first);
+        has_strength = has_strength || group.second.tensile_strength > 0;
+      }
+    if (has_criterion() && !has_strength)
+      throw InputError("no material has the strength that this criterion holds stresses against")
+        .parameter("Material/Failure criterion")
+        .allowed("none without Material/Tensile strength");
+  }
+
+  void MaterialParameters::check_strengths(const MaterialProperties &material,
+                                           const std::string        &section) const
+  {
+    if (!has_criterion() && (material.tensile_strength > 0 || material.compressive_strength > 0))
+      throw InputError("a strength is given, and nothing breaks by stress")
+        .parameter(section + (material.tensile_strength > 0 ? "/Tensile strength" : "/Compressive strength"))
+        .hint("set Material/Failure criterion, or remove it");
+    if (has_criterion() && (material.fracture_energy > 0 || material.critical_stretch > 0))
+      throw InputError("bonds break either by stress or by stretch")
+        .parameter(section + (material.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
+        .allowed("0 for Failure criterion = " + failure_criterion);
+    // Weaker in compression, sin(phi) = (f_c - f_t)/(f_c + f_t) would be negative.
+    if (failure_criterion == "Mohr-Coulomb" && material.tensile_strength > 0 &&
+        !(material.compressive_strength >= material.tensile_strength))
+      throw InputError("the angle of internal friction follows from both strengths, and would be negative")
+        .parameter(section + "/Compressive strength")
+        .allowed("a number >= Tensile strength for Failure criterion = Mohr-Coulomb");
   }
 
   template <int dim>

@@ -127,6 +127,10 @@ namespace perideal
     /// @throws InputError on what does not go with Taylor ghosts.
     void check_ghosts() const;
 
+    /// @throws InputError on a failure by stress of bonds that break by stretch, and on one by stretch of
+    /// those that break by stress.
+    void check_failure() const;
+
     /// @throws InputError on what does not go with Gauss points, or with compensation factors.
     void check_quadrature() const;
     /// Chooses the treatment of tractions.

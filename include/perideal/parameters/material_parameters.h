@@ -29,6 +29,9 @@ namespace perideal
     double fracture_energy = 0.;
     /// Stretch at which bonds break [-]; 0: from the fracture energy.
     double critical_stretch = 0.;
+    /// Strengths in uniaxial tension and compression [Pa]; no tensile strength: the material does not break
+    /// by stress.
+    double tensile_strength = 0., compressive_strength = 0.;
   };
 
   /**
@@ -40,6 +43,8 @@ namespace perideal
   {
     /// Name of the plane assumption, of interest in 2-D only.
     std::string assumption = "plane stress";
+    /// none | maximum tensile stress | Mohr-Coulomb: by which stress bonds break.
+    std::string failure_criterion = "none";
     /// Properties of cells in no named group.
     MaterialProperties body;
     /// Properties by physical group name (or id).
@@ -52,10 +57,17 @@ namespace perideal
     ///   constants that are missing, too many or of no use.
     void check(const int dim) const;
 
+    /// Whether bonds break by stress.
+    bool has_criterion() const { return failure_criterion != "none"; }
+
     /// What a material is in @p dim dimensions.
     /// @throws InputError as check().
     template <int dim>
     ElasticSolid<dim> elastic_solid(const MaterialProperties &material) const;
+
+  private:
+    /// @throws InputError on strengths that the criterion cannot be made of.
+    void check_strengths(const MaterialProperties &material, const std::string &section) const;
   };
 } // namespace perideal
 

@@ -85,6 +85,35 @@ TEST(Material, RejectsUnphysicalValues)
                      {"Material/core/Young modulus"});
 }
 
+TEST(Material, StrengthsAreThoseOfTheCriterion)
+{
+  const MaterialParameters material =
+    read_material("set Failure criterion = Mohr-Coulomb\n set Tensile strength = 3e6\n"
+                  "set Compressive strength = 38.4e6\n"
+                  "subsection platen\n set Tensile strength = 0\n end\n subsection core\n end\n");
+  EXPECT_TRUE(material.has_criterion());
+  EXPECT_EQ(material.groups.at("core").tensile_strength, 3e6);
+  EXPECT_EQ(material.groups.at("core").compressive_strength, 38.4e6);
+  EXPECT_EQ(material.groups.at("platen").tensile_strength, 0.) << "unbreakable";
+  const std::string tensile = "set Failure criterion = maximum tensile stress\n";
+  EXPECT_NO_THROW(read_material(tensile + "subsection core\n set Tensile strength = 1\n end\n"));
+  expect_input_error([&] { read_material(tensile); }, {"Material/Failure criterion", "strength"});
+  expect_input_error([&] { read_material("set Compressive strength = 1\n"); },
+                     {"Material/Compressive strength", "Failure criterion"});
+  expect_input_error(
+    [&] {
+      read_material(tensile +
+                    "set Tensile strength = 1\n subsection core\n set Critical stretch = 1\n end\n");
+    },
+    {"Material/core/Critical stretch"});
+  expect_input_error(
+    [] {
+      read_material("set Failure criterion = Mohr-Coulomb\n set Tensile strength = 3\n"
+                    "set Compressive strength = 2\n");
+    },
+    {"Material/Compressive strength", ">= Tensile strength"});
+}
+
 TEST(ElasticConstants, AgreeWithHookesLaw)
 {
   // Uniaxial stress must follow Young's modulus: sigma_yy = 0 at eps_yy = -nu eps_xx
