@@ -115,7 +115,7 @@ namespace perideal
     const bool               consistent = parameters.model.is_consistent();
     const auto               statistics = scene.families->statistics();
     const unsigned int       wanted     = dim == 2 ? 5 : 15;
-    if (!consistent && statistics.min < wanted)
+    if (!consistent && !parameters.model.is_correspondence() && statistics.min < wanted)
       result.push_back("the smallest family has " + std::to_string(statistics.min) +
                        " members, fewer than the " + std::to_string(wanted) +
                        " moment conditions: enlarge Nodes/Horizon factor");

@@ -3,8 +3,10 @@
 #include <perideal/base/registry.h>
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/materials/elastic_state.h>
+#include <perideal/operators/correspondence_force.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace perideal
 {
@@ -46,11 +48,36 @@ namespace perideal
       output.add_scalar(name, values);
     }
 
+    /// Green's strain in space, of linear laws the small strain.
+    template <int dim>
+    dealii::SymmetricTensor<2, 3> strain_of(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &H)
+    {
+      const dealii::SymmetricTensor<2, dim> in_plane =
+        law.is_linear() ? symmetrize(H) : symmetrize(H + 0.5 * transpose(H) * H);
+      dealii::SymmetricTensor<2, 3> result;
+      for (int i = 0; i < dim; ++i)
+        for (int j = i; j < dim; ++j)
+          result[i][j] = in_plane[i][j];
+      const double across = law.thickness_stretch(H);
+      if (dim == 2)
+        result[2][2] = law.is_linear() ? across - 1. : 0.5 * (across * across - 1.);
+      return result;
+    }
+
     /// Strain and stress of the nodes.
     template <int dim>
     std::vector<ElasticState> states_of(const SceneState<dim> &scene)
     {
       std::vector<ElasticState> result;
+      if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(scene.force.get()))
+        {
+          for (const auto &H : force->gradients())
+            {
+              const HyperelasticLaw<dim> &law = force->law(result.size());
+              result.push_back({strain_of(law, H), law.cauchy_stress(H), law.energy(H)});
+            }
+          return result;
+        }
       for (const auto &strain :
            compute_nodal_strain(*scene.gradient, *scene.face_values, *scene.nodes, scene.displacement))
         result.push_back(elastic_state<dim>(strain, scene.solids.at(scene.nodes->material[result.size()])));
@@ -69,15 +96,15 @@ namespace perideal
       output.add_tensor(name, values);
     }
 
-    template <int dim>
+    template <int dim, typename Value>
     void add_state_scalar(const SceneState<dim> &scene,
                           const std::string     &name,
-                          double (ElasticState::*value)() const,
-                          FieldOutput<dim> &output)
+                          const Value           &value,
+                          FieldOutput<dim>      &output)
     {
       std::vector<double> values;
       for (const ElasticState &state : states_of(scene))
-        values.push_back((state.*value)());
+        values.push_back(value(state));
       output.add_scalar(name, values);
     }
 
@@ -118,15 +145,18 @@ namespace perideal
          {"strain", [](Scene s, Output o) { add_state_tensor(s, "strain", &ElasticState::strain, o); }},
          {"stress", [](Scene s, Output o) { add_state_tensor(s, "stress", &ElasticState::stress, o); }},
          {"von mises",
-          [](Scene s, Output o) { add_state_scalar(s, "von_mises_stress", &ElasticState::von_mises, o); }},
+          [](Scene s, Output o) {
+            add_state_scalar(s, "von_mises_stress", std::mem_fn(&ElasticState::von_mises), o);
+          }},
          {"principal stress",
           [](Scene s, Output o) {
-            add_state_scalar(s, "largest_principal_stress", &ElasticState::largest_principal, o);
-            add_state_scalar(s, "smallest_principal_stress", &ElasticState::smallest_principal, o);
+            add_state_scalar(s, "largest_principal_stress", std::mem_fn(&ElasticState::largest_principal), o);
+            add_state_scalar(
+              s, "smallest_principal_stress", std::mem_fn(&ElasticState::smallest_principal), o);
           }},
          {"strain energy density",
           [](Scene s, Output o) {
-            add_state_scalar(s, "strain_energy_density", &ElasticState::energy_density, o);
+            add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);
           }},
          {"volume", [](Scene s, Output o) { o.add_scalar("volume", s.nodes->volume); }},
          {"horizon", [](Scene s, Output o) { o.add_scalar("horizon", s.nodes->horizon); }},

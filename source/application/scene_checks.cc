@@ -10,7 +10,8 @@ namespace perideal
   void SceneParameters::resolve()
   {
     // What breaks by stress breaks between the bonds of families.
-    if (model.is_correspondence() && model.form == "automatic" && !precracks.cracks.empty())
+    if (model.is_correspondence() && model.form == "automatic" &&
+        (material.has_criterion() || !precracks.cracks.empty()))
       model.form = "family";
     model.resolve(dimension,
                   solver.is_dynamic() || solver.is_nonlinear_static() ? ModelParameters::Use::motion :
@@ -83,7 +84,7 @@ namespace perideal
 
   void SceneParameters::check_failure() const
   {
-    const bool by_stress = model.model == "correspondence";
+    const bool by_stress = model.is_correspondence();
     if (material.has_criterion() && !by_stress)
       throw InputError("the bonds of this model break by stretch")
         .parameter("Material/Failure criterion")
@@ -170,11 +171,11 @@ namespace perideal
         .parameter("Quadrature/Scheme")
         .given(quadrature.scheme)
         .allowed("one point | cubic cell | partial volume for Material/Model = correspondence");
-    if (model.is_consistent() && !precracks.cracks.empty())
+    if (model.is_consistent() && (material.has_criterion() || !precracks.cracks.empty()))
       throw InputError("the consistent form takes gradients from faces, which no crack cuts")
         .parameter("Material/Form")
         .given(model.form)
-        .allowed("automatic | family with Precracks");
+        .allowed("automatic | family with Failure criterion or Precracks");
     if (!areal_forces.points.empty())
       throw InputError("bonds of the correspondence model carry the stresses of whole families")
         .parameter("Areal force densities/" + areal_forces.points.front().name)

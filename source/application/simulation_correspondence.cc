@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/fracture/stress_criteria.h>
 #include <perideal/operators/correspondence_tangent.h>
 
 // Simulation: the correspondence model.
@@ -19,10 +20,31 @@ namespace perideal
       by_faces ? scene.face_values : nullptr,
       create_correspondence<dim>(parameters.model),
       [this](const dealii::types::material_id id) { return scene.solids.at(id); });
-    scene.tangent = std::make_shared<CorrespondenceTangent<dim>>(scene.families, scene.correspondence, scene.laws);
-    scene.bonds   = scene.tangent;
+    scene.tangent =
+      std::make_shared<CorrespondenceTangent<dim>>(scene.families, scene.correspondence, scene.laws);
+    scene.bonds = scene.tangent;
   }
 
-  template void Simulation<2>::make_correspondence();
-  template void Simulation<3>::make_correspondence();
+  template <int dim>
+  void
+  Simulation<dim>::set_strengths(const std::function<bool(const LocalIndex, const LocalIndex)> &can_break)
+  {
+    std::map<dealii::types::material_id, StressCriterion> criteria;
+    for (const auto id : scene.mesh->material_ids)
+      criteria[id] = stress_criterion(parameters.material, properties_of(id));
+    auto &force = dynamic_cast<CorrespondenceForce<dim> &>(*scene.force);
+    force.set_strength(
+      [criteria](const dealii::types::material_id id, const dealii::SymmetricTensor<2, 3> &stress) {
+        return criteria.at(id).utilisation(stress);
+      },
+      can_break);
+  }
+
+#define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void Simulation<dim>::make_correspondence();                                                      \
+  template void Simulation<dim>::set_strengths(                                                              \
+    const std::function<bool(const LocalIndex, const LocalIndex)> &);
+  PERIDEAL_INSTANTIATE(2)
+  PERIDEAL_INSTANTIATE(3)
+#undef PERIDEAL_INSTANTIATE
 } // namespace perideal

@@ -79,6 +79,12 @@ namespace perideal
     if (scene.no_fail_zones)
       for (LocalIndex i = 0; i < families.n_local(); ++i)
         unbreakable[i] = scene.no_fail_zones->contains(families.position[i]);
+    if (scene.correspondence)
+      {
+        set_strengths(
+          [&](const LocalIndex i, const LocalIndex j) { return !unbreakable[i] && !unbreakable[j]; });
+        return;
+      }
     scene.force->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
       if (unbreakable[i] || unbreakable[j])
         return std::numeric_limits<double>::infinity();

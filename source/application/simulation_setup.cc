@@ -163,7 +163,8 @@ namespace perideal
     const Timings::Scope scope(timings, "setup");
     const auto           solid_of = solid_of_model();
     if (parameters.model.is_linear_only() || parameters.model.is_consistent() ||
-        needs_gradient(parameters.field_names()))
+        (needs_gradient(parameters.field_names()) &&
+         !(parameters.model.is_correspondence() && parameters.solver.is_nonlinear_static())))
       make_gradient();
     if (parameters.model.is_correspondence())
       make_correspondence();

@@ -25,10 +25,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  std::vector<bool> find_floating_nodes(const Families<dim>                       &families,
-                                        const BondList                            &bonds,
+  std::vector<bool> find_floating_nodes(const Families<dim>                        &families,
+                                        const BondList                             &bonds,
                                         const std::function<bool(const BondIndex)> &is_lost,
-                                        const std::vector<std::uint8_t>           &held)
+                                        const std::vector<std::uint8_t>            &held)
   {
     const LocalIndex n_owned = families.n_owned();
     const auto       exist   = [&](const std::vector<LocalIndex> &nodes) {

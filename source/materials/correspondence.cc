@@ -12,6 +12,13 @@ namespace perideal
     /// The smallest eigenvalue of a shape tensor, over that of the whole family, with which its inverse is
     /// still one: a half family keeps about half, bonds along a line none.
     constexpr double least_share = 0.05;
+
+    /// By Jacobi's method: the closed formula is no number where rounding makes equal values complex.
+    template <int dim>
+    double smallest_eigenvalue(const dealii::SymmetricTensor<2, dim> &tensor)
+    {
+      return dealii::eigenvectors(tensor, dealii::SymmetricTensorEigenvectorMethod::jacobi).back().first;
+    }
   } // namespace
 
   template <int dim>
@@ -22,10 +29,10 @@ namespace perideal
   }
 
   template <int dim>
-  void Correspondence<dim>::compute(const FamilyView<dim>                        &family,
-                                    const double                                  young_modulus,
+  void Correspondence<dim>::compute(const FamilyView<dim>                         &family,
+                                    const double                                   young_modulus,
                                     const std::function<bool(const LocalIndex k)> &is_gone,
-                                    Weights                                      &weights) const
+                                    Weights                                       &weights) const
   {
     const auto bond = [&](const LocalIndex k) {
       dealii::Tensor<1, dim> xi;
@@ -50,9 +57,7 @@ namespace perideal
         shape += share;
         weights.penalty[k] = weight;
       }
-    const auto   eigenvalues = dealii::eigenvalues(shape);
-    const double smallest    = eigenvalues[dim - 1];
-    weights.has_gradient     = smallest > least_share * dealii::eigenvalues(whole)[dim - 1];
+    weights.has_gradient = smallest_eigenvalue(shape) > least_share * smallest_eigenvalue(whole);
     const dealii::Tensor<2, dim> inverse =
       weights.has_gradient ? dealii::Tensor<2, dim>(invert(shape)) : dealii::Tensor<2, dim>();
     // beta V_i

@@ -30,6 +30,7 @@ namespace perideal
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = i; j < dim; ++j)
         state.stress[i][j] = in_plane[i][j];
+    state.energy_density = 0.5 * (state.stress * state.strain);
     return state;
   }
 

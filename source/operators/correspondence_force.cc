@@ -36,8 +36,7 @@ namespace perideal
 
   template <int dim>
   void CorrespondenceForce<dim>::set_strength(
-    const Utilisation                                             &given,
-    const std::function<bool(const LocalIndex, const LocalIndex)> &can_break)
+    const Utilisation &given, const std::function<bool(const LocalIndex, const LocalIndex)> &can_break)
   {
     utilisation = given;
     this->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
@@ -72,9 +71,8 @@ namespace perideal
     rows->read(displacement, CorrespondenceRows<dim>::AtFaces::values);
     if (this->can_break())
       break_bonds();
-    rows->forces(force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
-      return law_of_node[i]->stress(g);
-    });
+    rows->forces(
+      force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) { return law_of_node[i]->stress(g); });
     force *= -1.;
     support = rows->support_forces();
   }
@@ -99,8 +97,8 @@ namespace perideal
           const LocalIndex              j = bonds.neighbour[slot];
           dealii::SymmetricTensor<2, 3> mean;
           for (unsigned int k = 0; k < n_stresses; ++k)
-            mean.access_raw_entry(k) = 0.5 * (stresses.local_element(n_stresses * i + k) +
-                                              stresses.local_element(n_stresses * j + k));
+            mean.access_raw_entry(k) =
+              0.5 * (stresses.local_element(n_stresses * i + k) + stresses.local_element(n_stresses * j + k));
           result[slot] = utilisation(families->material[i], mean);
           if (families->material[j] != families->material[i])
             result[slot] = std::max(result[slot], utilisation(families->material[j], mean));

@@ -53,7 +53,7 @@ namespace perideal
     ghosts.add_indices(own_layout->ghost_indices());
     if (by_faces())
       {
-        const CellGraph<dim>  &graph = gradient->graph();
+        const CellGraph<dim>   &graph = gradient->graph();
         std::vector<LocalIndex> number(graph.n_local());
         for (LocalIndex k = 0; k < graph.n_local(); ++k)
           {
@@ -79,7 +79,8 @@ namespace perideal
       }
     dealii::IndexSet owned(own_layout->size());
     owned.add_range(range.first, range.second);
-    layout = std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, ghosts, families->communicator);
+    layout =
+      std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, ghosts, families->communicator);
     ghosted.reinit(layout);
     ghosted_forces.reinit(layout);
     const LocalIndex n = families->n_local() + face_ghost.size();
@@ -101,13 +102,12 @@ namespace perideal
     view.reinit(*families, i);
     typename Correspondence<dim>::Weights weights;
     const LocalIndex                     *j = member.data() + first[i];
-    model.compute(view,
-                  young_modulus.at(families->material[i]),
-                  is_gone ? std::function<bool(const LocalIndex)>([&](const LocalIndex k) {
-                    return is_gone(i, j[k]);
-                  }) :
-                            nullptr,
-                  weights);
+    model.compute(
+      view,
+      young_modulus.at(families->material[i]),
+      is_gone ? std::function<bool(const LocalIndex)>([&](const LocalIndex k) { return is_gone(i, j[k]); }) :
+                nullptr,
+      weights);
     spans_space[i] = weights.has_gradient;
     for (LocalIndex k = 0; k < view.size; ++k)
       {
@@ -120,8 +120,9 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceRows<dim>::reweigh(const std::vector<LocalIndex>                                 &nodes,
-                                        const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone)
+  void
+  CorrespondenceRows<dim>::reweigh(const std::vector<LocalIndex>                                 &nodes,
+                                   const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone)
   {
     for (const LocalIndex i : nodes)
       weigh(i, is_gone);
@@ -137,10 +138,9 @@ namespace perideal
       {
         const BoundaryPoint<dim> &point = gradient->boundary_points()[entries[e].point];
         const LocalIndex          i     = point.node;
-        const auto                begin = rows.column.begin() + rows.first[i],
-                   end                  = rows.column.begin() + rows.first[i + 1];
-        const auto inserted             = boundary_rows.insert({i, {{}, e, e}});
-        BoundaryRow &row                = inserted.first->second;
+        const auto begin = rows.column.begin() + rows.first[i], end = rows.column.begin() + rows.first[i + 1];
+        const auto inserted = boundary_rows.insert({i, {{}, e, e}});
+        BoundaryRow &row    = inserted.first->second;
         if (inserted.second)
           {
             row.c.resize(end - begin);
@@ -171,7 +171,8 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceRows<dim>::add_at_faces(const BoundaryRow &row, const LocalIndex i, Lanes (&g)[dim]) const
+  void
+  CorrespondenceRows<dim>::add_at_faces(const BoundaryRow &row, const LocalIndex i, Lanes (&g)[dim]) const
   {
     const LocalIndex *column = face_column.data() + gradient->rows().first[i];
     for (std::size_t k = 0; k < row.c.size(); ++k)

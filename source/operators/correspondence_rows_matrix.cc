@@ -113,8 +113,7 @@ namespace perideal
                   }
               }
             for (int a = 0; a < dim; ++a)
-              block[a][a] +=
-                own + 2. * (mixed * row.c[k][a]) + row.c[k][a] * (second_moment * row.c[k][a]);
+              block[a][a] += own + 2. * (mixed * row.c[k][a]) + row.c[k][a] * (second_moment * row.c[k][a]);
             for (int a = 0; a < dim; ++a)
               for (int c = 0; c < dim; ++c)
                 columns[c].local_element(place(j) + a) += block[a][c];
@@ -132,16 +131,16 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceRows<dim>::assemble(const TangentOf                               &tangent_of,
+  void CorrespondenceRows<dim>::assemble(const TangentOf                            &tangent_of,
                                          const typename BondOperator<dim>::AddBlock &add) const
   {
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
     for (LocalIndex i = 0; i < n_owned(); ++i)
       {
-        const DenseRow               row = dense_row(i);
-        const dealii::Tensor<4, dim> A   = families->volume[i] * tangent_of(i);
-        const std::size_t            n   = row.column.size();
+        const DenseRow               row       = dense_row(i);
+        const dealii::Tensor<4, dim> A         = families->volume[i] * tangent_of(i);
+        const std::size_t            n         = row.column.size();
         const BondIndex              n_members = first[i + 1] - first[i];
         const std::size_t self = std::find(row.column.begin(), row.column.end(), i) - row.column.begin();
         unknowns.clear();
@@ -149,7 +148,8 @@ namespace perideal
           for (int a = 0; a < dim; ++a)
             unknowns.push_back(dim * global_number(j) + a);
         values.assign(dim * n * dim * n, 0.);
-        const auto entry = [&](const std::size_t k, const int a, const std::size_t l, const int c) -> double & {
+        const auto entry =
+          [&](const std::size_t k, const int a, const std::size_t l, const int c) -> double & {
           return values[(dim * k + a) * dim * n + dim * l + c];
         };
         for (std::size_t k = 0; k < n; ++k)

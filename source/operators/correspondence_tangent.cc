@@ -11,11 +11,12 @@ namespace perideal
 {
   template <int dim>
   CorrespondenceTangent<dim>::CorrespondenceTangent(
-    const std::shared_ptr<const Families<dim>>            &families,
+    const std::shared_ptr<const Families<dim>>           &families,
     const std::shared_ptr<const CorrespondenceRows<dim>> &rows,
-    const LawsByMaterial<dim>                             &laws)
+    const LawsByMaterial<dim>                            &laws)
     : rows(rows)
-    , is_linear(std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))
+    , is_linear(
+        std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))
   {
     this->partitioner = families->make_partitioner(dim);
     this->reports.resize(families->n_owned());
@@ -130,7 +131,8 @@ namespace perideal
   std::vector<double> CorrespondenceTangent<dim>::dilatation() const
   {
     std::vector<double> result;
-    rows->visit_gradients([&](const LocalIndex, const dealii::Tensor<2, dim> &g) { result.push_back(trace(g)); });
+    rows->visit_gradients(
+      [&](const LocalIndex, const dealii::Tensor<2, dim> &g) { result.push_back(trace(g)); });
     return result;
   }
 

@@ -143,7 +143,7 @@ namespace perideal
     void run_relaxation();
     void run_quasi_static();
     /// Strengths of the bonds that break by stress.
-    void set_strengths();
+    void set_strengths(const std::function<bool(const LocalIndex, const LocalIndex)> &can_break);
     /// The tangent and what solves with it, in the body before anything is cut.
     void set_up_tangent();
     /// Load steps, with what they leave behind.

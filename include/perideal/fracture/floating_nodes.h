@@ -18,10 +18,10 @@ namespace perideal
    * @param held by dim*node + component of owned nodes, 1 where held
    */
   template <int dim>
-  std::vector<bool> find_floating_nodes(const Families<dim>                       &families,
-                                        const BondList                            &bonds,
+  std::vector<bool> find_floating_nodes(const Families<dim>                        &families,
+                                        const BondList                             &bonds,
                                         const std::function<bool(const BondIndex)> &is_lost,
-                                        const std::vector<std::uint8_t>           &held);
+                                        const std::vector<std::uint8_t>            &held);
 } // namespace perideal
 
 #endif

@@ -65,10 +65,10 @@ namespace perideal
 
     /// Weighs a family. Its solid gives the penalty its modulus.
     /// @param is_gone of members by place in the view; they weigh nothing, while beta stays that of all
-    void compute(const FamilyView<dim>                        &family,
-                 const double                                  young_modulus,
+    void compute(const FamilyView<dim>                         &family,
+                 const double                                   young_modulus,
                  const std::function<bool(const LocalIndex k)> &is_gone,
-                 Weights                                      &weights) const;
+                 Weights                                       &weights) const;
 
   private:
     InfluenceFunction influence;

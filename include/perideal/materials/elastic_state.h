@@ -15,9 +15,9 @@ namespace perideal
   struct ElasticState
   {
     dealii::SymmetricTensor<2, 3> strain, stress;
+    /// Of the strain, in a unit of undeformed volume [J/m^3].
+    double energy_density = 0;
 
-    /// Half of stress times strain [J/m^3].
-    double energy_density() const { return 0.5 * (stress * strain); }
     /// Von Mises' equivalent stress [Pa].
     double von_mises() const;
     /// Largest and smallest of the three principal stresses [Pa].

@@ -27,9 +27,9 @@ namespace perideal
   class CorrespondenceForce : public BreakingBonds<dim>
   {
   public:
-    CorrespondenceForce(const std::shared_ptr<const Families<dim>>      &families,
+    CorrespondenceForce(const std::shared_ptr<const Families<dim>>     &families,
                         const std::shared_ptr<CorrespondenceRows<dim>> &rows,
-                        const LawsByMaterial<dim>                       &laws);
+                        const LawsByMaterial<dim>                      &laws);
 
     /// Share of its strength that a stress in space [Pa] takes of a material [-]; it breaks at 1.
     using Utilisation =

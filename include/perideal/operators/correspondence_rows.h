@@ -72,7 +72,8 @@ namespace perideal
     template <typename Visit>
     void visit_gradients(const Visit &visit) const
     {
-      for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *) { visit(i, to_tensor(g)); });
+      for_all_nodes(
+        [&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *) { visit(i, to_tensor(g)); });
     }
 
     /// dU/du [N] of owned nodes. Collective.

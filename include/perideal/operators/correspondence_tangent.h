@@ -20,9 +20,9 @@ namespace perideal
   class CorrespondenceTangent : public TangentOperator<dim>
   {
   public:
-    CorrespondenceTangent(const std::shared_ptr<const Families<dim>>            &families,
+    CorrespondenceTangent(const std::shared_ptr<const Families<dim>>           &families,
                           const std::shared_ptr<const CorrespondenceRows<dim>> &rows,
-                          const LawsByMaterial<dim>                             &laws);
+                          const LawsByMaterial<dim>                            &laws);
 
     /// @param force a CorrespondenceForce of the same rows
     void linearise(const BondForce<dim> &force) override;

@@ -100,5 +100,6 @@ TEST(StressCriteria, OfAMaterialOfAScene)
   EXPECT_NEAR(stress_criterion(parameters, parameters.body).utilisation(pull), 0.5, precision);
   parameters.failure_criterion         = "Mohr-Coulomb";
   parameters.body.compressive_strength = f_c;
-  EXPECT_NEAR(stress_criterion(parameters, parameters.body).utilisation(principal(0., 0., -f_c)), 1., precision);
+  EXPECT_NEAR(
+    stress_criterion(parameters, parameters.body).utilisation(principal(0., 0., -f_c)), 1., precision);
 }

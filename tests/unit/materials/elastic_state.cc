@@ -44,7 +44,7 @@ namespace
   {
     EXPECT_LE((state.stress - stress).norm(), 1e-13 * stress.norm());
     EXPECT_LE((state.strain - strain).norm(), 1e-13 * strain.norm());
-    EXPECT_NEAR(state.energy_density(), 0.5 * (stress * strain), 1e-13 * (stress * strain));
+    EXPECT_NEAR(state.energy_density, 0.5 * (stress * strain), 1e-13 * (stress * strain));
   }
 } // namespace
 

@@ -14,8 +14,6 @@ using namespace perideal;
 
 namespace
 {
-  const char *axes[] = {"x", "y", "z"};
-
   /// A body whose boundaries (numbered as by hyper_rectangle) have conditions.
   template <int dim>
   struct LoadedBody
