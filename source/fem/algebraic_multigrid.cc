@@ -13,8 +13,8 @@ namespace perideal
   template <int dim>
   struct AlgebraicMultigrid<dim>::Implementation
   {
-    explicit Implementation(const ElasticFem<dim> &fem)
-      : near_null_space(fem.matrix().trilinos_matrix().DomainMap(), RigidBodyMotions<dim>::n_motions)
+    explicit Implementation(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+      : near_null_space(matrix.trilinos_matrix().DomainMap(), RigidBodyMotions<dim>::n_motions)
     {
     }
 
@@ -30,18 +30,21 @@ namespace perideal
     /// Translations alone (as deal.II's constant_modes) let the iterations grow
     /// with the mesh.
     template <int dim>
-    void fill_rigid_body_modes(const ElasticFem<dim> &fem, Epetra_MultiVector &modes)
+    void fill_rigid_body_modes(const dealii::Mapping<dim>              &mapping,
+                               const dealii::DoFHandler<dim>           &unknowns,
+                               const dealii::AffineConstraints<double> &constraints,
+                               Epetra_MultiVector                      &modes)
     {
-      const auto points  = owned_support_points(fem.mapping(), fem.dof_handler());
-      const auto owned   = fem.dof_handler().locally_owned_dofs();
-      const auto motions = motions_about_middle(points, fem.dof_handler().get_communicator());
+      const auto  points  = owned_support_points(mapping, unknowns);
+      const auto &owned   = unknowns.locally_owned_dofs();
+      const auto  motions = motions_about_middle(points, unknowns.get_communicator());
       for (unsigned int mode = 0; mode < RigidBodyMotions<dim>::n_motions; ++mode)
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             const dealii::Tensor<1, dim> value = motions.basic_motion(mode, points[i]);
             for (unsigned int d = 0; d < dim; ++d)
               modes[mode][dim * i + d] =
-                fem.constraints().is_constrained(owned.nth_index_in_set(dim * i + d)) ? 0. : value[d];
+                constraints.is_constrained(owned.nth_index_in_set(dim * i + d)) ? 0. : value[d];
           }
     }
 
@@ -77,11 +80,21 @@ namespace perideal
 
   template <int dim>
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest)
-    : implementation(std::make_unique<Implementation>(fem))
+    : AlgebraicMultigrid(fem.mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), smooth_finest)
+  {
+  }
+
+  template <int dim>
+  AlgebraicMultigrid<dim>::AlgebraicMultigrid(const dealii::Mapping<dim>                   &mapping,
+                                              const dealii::DoFHandler<dim>                &unknowns,
+                                              const dealii::AffineConstraints<double>      &constraints,
+                                              const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                              const bool                                    smooth_finest)
+    : implementation(std::make_unique<Implementation>(matrix))
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
-    fill_rigid_body_modes(fem, modes);
-    implementation->multigrid.initialize(fem.matrix(), multigrid_options<dim>(modes, smooth_finest));
+    fill_rigid_body_modes(mapping, unknowns, constraints, modes);
+    implementation->multigrid.initialize(matrix, multigrid_options<dim>(modes, smooth_finest));
   }
 
   template <int dim>

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/component_mask.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
@@ -172,6 +173,22 @@ namespace perideal
     return n_pins;
   }
 
+  template <int dim>
+  dealii::Tensor<1, dim> sum_of_held(const dealii::DoFHandler<dim>           &unknowns,
+                                     const dealii::AffineConstraints<double> &constraints,
+                                     const NodalVector                       &forces,
+                                     const dealii::types::boundary_id         boundary)
+  {
+    const auto on_boundary =
+      dealii::DoFTools::extract_boundary_dofs(unknowns, dealii::ComponentMask(), {boundary});
+    dealii::Tensor<1, dim> result;
+    const auto            &owned = unknowns.locally_owned_dofs();
+    for (const auto index : on_boundary)
+      if (owned.is_element(index) && is_held(constraints, index))
+        result[owned.index_within_set(index) % dim] += forces(index);
+    return dealii::Utilities::MPI::sum(result, unknowns.get_communicator());
+  }
+
 #define INSTANTIATE(dim)                                                                                     \
   template void         add_prescribed_displacements(const dealii::Mapping<dim> &,                           \
                                                      const dealii::DoFHandler<dim> &,                        \
@@ -180,7 +197,11 @@ namespace perideal
                                                      const double,                                           \
                                                      dealii::AffineConstraints<double> &);                   \
   template unsigned int pin_free_motions(                                                                    \
-    const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &)
+    const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &);     \
+  template dealii::Tensor<1, dim> sum_of_held(const dealii::DoFHandler<dim> &,                               \
+                                              const dealii::AffineConstraints<double> &,                     \
+                                              const NodalVector &,                                           \
+                                              const dealii::types::boundary_id)
   INSTANTIATE(2);
   INSTANTIATE(3);
 #undef INSTANTIATE

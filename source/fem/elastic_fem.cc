@@ -5,14 +5,11 @@
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fem/polynomial_multigrid.h>
 #include <perideal/mesh/create_mesh.h>
-#include <perideal/mesh/point_location.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
-
-#include <algorithm>
 
 namespace perideal
 {
@@ -56,18 +53,11 @@ namespace perideal
                               std::shared_ptr<const dealii::Triangulation<dim>> cells)
     : body(mesh)
     , loads(loads)
-    , has_body_force(std::any_of(loads.body_force.begin(),
-                                 loads.body_force.end(),
-                                 [](const SpaceTimeFunction<dim> &force) { return force.is_present(); }))
+    , external(mesh, loads)
     , own_cells(std::move(cells))
     , geometry(degree)
     , element(dealii::FE_Q<dim>(degree), dim)
   {
-    for (const BoundaryCondition<dim> &condition : loads.conditions)
-      if (condition.prescribes_traction())
-        for (const std::string &boundary : condition.boundaries)
-          tractions.emplace(mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary"),
-                            &condition);
     if (own_cells != nullptr)
       unknowns.reinit(*own_cells);
     else
@@ -103,23 +93,6 @@ namespace perideal
   }
 
   template <int dim>
-  void ElasticFem<dim>::locate_point_loads()
-  {
-    point_forces.clear();
-    if (loads.point_loads.empty())
-      return;
-    std::vector<dealii::Point<dim>> points;
-    for (const PointLoad<dim> &load : loads.point_loads)
-      points.push_back(load.position);
-    std::vector<double> distances;
-    const auto places = PointLocation<dim>(unknowns.get_triangulation(), geometry).share(points, distances);
-    for (std::size_t p = 0; p < points.size(); ++p)
-      for (const auto &at : places[p])
-        point_forces.insert({at.place.cell->active_cell_index(),
-                             {at.place.unit_point, loads.point_loads[p].force_at(time) / at.n_sharing}});
-  }
-
-  template <int dim>
   void ElasticFem<dim>::cell_system(const Cell                 &cell,
                                     CellIntegrals<dim>         &integrals,
                                     dealii::FullMatrix<double> &matrix,
@@ -133,28 +106,7 @@ namespace perideal
     integrals.stiffness(cell, material->second, matrix);
 
     forces = 0.;
-    if (has_body_force)
-      integrals.add_body_force(
-        cell, [&](const dealii::Point<dim> &point) { return loads.body_force_at(point, time); }, forces);
-    if (!tractions.empty() && cell->at_boundary())
-      for (const unsigned int face : cell->face_indices())
-        if (cell->face(face)->at_boundary())
-          {
-            const auto acting = tractions.equal_range(cell->face(face)->boundary_id());
-            for (auto entry = acting.first; entry != acting.second; ++entry)
-              integrals.add_traction(
-                cell,
-                face,
-                [&](const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &normal) {
-                  return Loads<dim>::traction(*entry->second, point, normal, time);
-                },
-                forces);
-          }
-    const auto acting = point_forces.equal_range(cell->active_cell_index());
-    for (auto entry = acting.first; entry != acting.second; ++entry)
-      for (unsigned int k = 0; k < forces.size(); ++k)
-        forces[k] += element.shape_value(k, entry->second.unit_point) *
-                     entry->second.force[element.system_to_component_index(k).first];
+    external.add(cell, integrals, forces);
   }
 
   template <int dim>
@@ -167,7 +119,7 @@ namespace perideal
     unknowns.distribute_dofs(element);
     make_constraints();
     make_sparsity();
-    locate_point_loads();
+    external.reinit(unknowns.get_triangulation(), geometry, time);
 
     CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
     const unsigned int                           n = element.n_dofs_per_cell();

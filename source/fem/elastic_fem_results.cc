@@ -3,7 +3,6 @@
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fem/point_evaluation.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
@@ -24,32 +23,12 @@ namespace perideal
     Assert(is_on_mesh_itself(), dealii::ExcMessage("the cells are those of the mesh itself only"));
     AssertDimension(point_of_cell.size(), body.triangulation.n_active_cells());
 
-    std::vector<dealii::Tensor<1, dim>>          result(point_of_cell.size());
-    const dealii::FiniteElement<dim>            &scalar = element.base_element(0);
-    std::vector<dealii::types::global_dof_index> indices(element.n_dofs_per_cell());
-    for (const Cell &cell : unknowns.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const unsigned int       index = cell->active_cell_index();
-          const dealii::Point<dim> unit_point =
-            geometry.transform_real_to_unit_cell(cell, point_of_cell[index]);
-          cell->get_dof_indices(indices);
-          for (unsigned int a = 0; a < scalar.n_dofs_per_cell(); ++a)
-            {
-              const double weight = scalar.shape_value(a, unit_point);
-              for (unsigned int d = 0; d < dim; ++d)
-                result[index][d] += weight * displacement(indices[element.component_to_system_index(d, a)]);
-            }
-        }
-    return result;
+    return perideal::evaluate_in_cells<dim>(geometry, unknowns, displacement, point_of_cell);
   }
 
   template <int dim>
   dealii::Tensor<1, dim> ElasticFem<dim>::reaction(const dealii::types::boundary_id boundary) const
   {
-    const dealii::IndexSet on_boundary =
-      dealii::DoFTools::extract_boundary_dofs(unknowns, dealii::ComponentMask(), {boundary});
-
     // Forces at hanging nodes belong to the nodes they hang on.
     dealii::AffineConstraints<double> hanging(relevant);
     dealii::DoFTools::make_hanging_node_constraints(unknowns, hanging);
@@ -78,12 +57,7 @@ namespace perideal
         }
     support.compress(dealii::VectorOperation::add);
 
-    dealii::Tensor<1, dim> result;
-    const auto            &owned = unknowns.locally_owned_dofs();
-    for (const auto index : on_boundary)
-      if (owned.is_element(index) && is_held(held, index))
-        result[owned.index_within_set(index) % dim] += support(index);
-    return dealii::Utilities::MPI::sum(result, unknowns.get_communicator());
+    return sum_of_held(unknowns, held, support, boundary);
   }
 
 #define INSTANTIATE(dim)                                                                                     \

@@ -126,6 +126,41 @@ namespace perideal
     return result;
   }
 
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> evaluate_in_cells(const dealii::Mapping<dim>            &mapping,
+                                                        const dealii::DoFHandler<dim>         &unknowns,
+                                                        const NodalVector                     &displacement,
+                                                        const std::vector<dealii::Point<dim>> &point_of_cell)
+  {
+    const dealii::FiniteElement<dim>            &element = unknowns.get_fe();
+    std::vector<dealii::Tensor<1, dim>>          result(point_of_cell.size());
+    const dealii::FiniteElement<dim>            &scalar = element.base_element(0);
+    std::vector<dealii::types::global_dof_index> indices(element.n_dofs_per_cell());
+    for (const auto &cell : unknowns.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int       index = cell->active_cell_index();
+          const dealii::Point<dim> unit_point =
+            mapping.transform_real_to_unit_cell(cell, point_of_cell[index]);
+          cell->get_dof_indices(indices);
+          for (unsigned int a = 0; a < scalar.n_dofs_per_cell(); ++a)
+            {
+              const double weight = scalar.shape_value(a, unit_point);
+              for (unsigned int d = 0; d < dim; ++d)
+                result[index][d] += weight * displacement(indices[element.component_to_system_index(d, a)]);
+            }
+        }
+    return result;
+  }
+
   template class PointEvaluation<2>;
   template class PointEvaluation<3>;
+  template std::vector<dealii::Tensor<1, 2>> evaluate_in_cells(const dealii::Mapping<2> &,
+                                                               const dealii::DoFHandler<2> &,
+                                                               const NodalVector &,
+                                                               const std::vector<dealii::Point<2>> &);
+  template std::vector<dealii::Tensor<1, 3>> evaluate_in_cells(const dealii::Mapping<3> &,
+                                                               const dealii::DoFHandler<3> &,
+                                                               const NodalVector &,
+                                                               const std::vector<dealii::Point<3>> &);
 } // namespace perideal

@@ -5,6 +5,11 @@
 #include <perideal/base/types.h>
 #include <perideal/fem/elastic_fem.h>
 
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
 #include <memory>
 
 namespace perideal
@@ -21,6 +26,13 @@ namespace perideal
     /// @param smooth_finest false: no smoother on the finest level, for use as the
     ///   coarse part of an auxiliary-space preconditioner, whose own smoother does that work.
     AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest);
+
+    /// The same for the matrix of any such elements, which must outlive this object.
+    AlgebraicMultigrid(const dealii::Mapping<dim>                   &mapping,
+                       const dealii::DoFHandler<dim>                &unknowns,
+                       const dealii::AffineConstraints<double>      &constraints,
+                       const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                       const bool                                    smooth_finest);
     ~AlgebraicMultigrid();
 
     /// Approximates the inverse of the matrix applied to @p source. The vectors

@@ -2,6 +2,7 @@
 #ifndef perideal_fem_displacement_constraints_h
 #define perideal_fem_displacement_constraints_h
 
+#include <perideal/base/types.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/load_parameters.h>
 
@@ -43,6 +44,14 @@ namespace perideal
   {
     return constraints.is_constrained(index) && constraints.get_constraint_entries(index)->empty();
   }
+
+  /// Sum of the forces [N] at unknowns that are held, over a boundary: of a reaction where these are
+  /// residuals of the free body. Collective.
+  template <int dim>
+  dealii::Tensor<1, dim> sum_of_held(const dealii::DoFHandler<dim>           &unknowns,
+                                     const dealii::AffineConstraints<double> &constraints,
+                                     const NodalVector                       &forces,
+                                     const dealii::types::boundary_id         boundary);
 } // namespace perideal
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <perideal/base/types.h>
 #include <perideal/fem/cell_integrals.h>
+#include <perideal/fem/external_forces.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/load_parameters.h>
@@ -117,7 +118,6 @@ namespace perideal
 
     void make_constraints();
     void make_sparsity();
-    void locate_point_loads();
 
     /// Stiffness matrix [N/m] and nodal forces [N] of one cell, nothing held.
     void cell_system(const Cell                 &cell,
@@ -125,20 +125,9 @@ namespace perideal
                      dealii::FullMatrix<double> &matrix,
                      dealii::Vector<double>     &forces) const;
 
-    const Mesh<dim>  &body;
-    const Loads<dim> &loads;
-    /// Conditions with a traction or pressure, by the boundary they act on.
-    std::multimap<dealii::types::boundary_id, const BoundaryCondition<dim> *> tractions;
-    bool                                                                      has_body_force;
-
-    /// The part of a point load [N] that acts at a point of a cell.
-    struct PointForce
-    {
-      dealii::Point<dim>     unit_point;
-      dealii::Tensor<1, dim> force;
-    };
-    /// By active_cell_index().
-    std::multimap<unsigned int, PointForce> point_forces;
+    const Mesh<dim>    &body;
+    const Loads<dim>   &loads;
+    ExternalForces<dim> external;
 
     /// The cells, where they are not those of the mesh itself.
     std::shared_ptr<const dealii::Triangulation<dim>> own_cells;

@@ -56,6 +56,14 @@ namespace perideal
     const NodalVector             &displacement;
     PointLocation<dim>             location;
   };
+
+  /// The same at one point of each locally owned cell, both indexed by active_cell_index(); entries of other
+  /// cells are ignored and zero. The fast way, where the cells are known.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> evaluate_in_cells(const dealii::Mapping<dim>            &mapping,
+                                                        const dealii::DoFHandler<dim>         &unknowns,
+                                                        const NodalVector                     &displacement,
+                                                        const std::vector<dealii::Point<dim>> &point_of_cell);
 } // namespace perideal
 
 #endif

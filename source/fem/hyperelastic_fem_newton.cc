@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/fem/algebraic_multigrid.h>
+#include <perideal/fem/displacement_constraints.h>
+#include <perideal/fem/hyperelastic_fem.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+// HyperelasticFem: Newton's method.
+
+namespace perideal
+{
+  template <int dim>
+  NodalVector HyperelasticFem<dim>::residual() const
+  {
+    NodalVector result(balance);
+    for (const auto index : unknowns.locally_owned_dofs())
+      if (held.is_constrained(index))
+        result(index) = 0.;
+    return result;
+  }
+
+  template <int dim>
+  typename HyperelasticFem<dim>::Norms HyperelasticFem<dim>::measure()
+  {
+    const NodalVector free  = residual();
+    NodalVector       bound = balance;
+    bound -= free;
+    return {free.l2_norm(), std::max({bound.l2_norm(), external_force.l2_norm(), largest_load})};
+  }
+
+  template <int dim>
+  void HyperelasticFem<dim>::assemble_tangent(const Constraints &increments, NodalVector &right_hand_side)
+  {
+    const unsigned int         n = element.n_dofs_per_cell();
+    FiniteStrainIntegrals<dim> integrals(geometry, element, thickness);
+    dealii::FullMatrix<double> matrix(n, n);
+    dealii::Vector<double>     nothing(n);
+    stiffness       = 0.;
+    right_hand_side = 0.;
+    for_each_cell([&](const Cell &cell, const auto &law, const auto &indices, const auto &values) {
+      integrals.reinit(cell, values);
+      integrals.tangent(law, matrix);
+      increments.distribute_local_to_global(matrix, nothing, indices, stiffness, right_hand_side);
+    });
+    stiffness.compress(dealii::VectorOperation::add);
+    right_hand_side.compress(dealii::VectorOperation::add);
+
+    // A displacement is rounded by eps |u|, and every force by what the stiffness makes of that.
+    double squares = 0;
+    for (const auto index : unknowns.locally_owned_dofs())
+      squares += std::pow(stiffness.diag_element(index), 2);
+    squares  = dealii::Utilities::MPI::sum(squares, unknowns.get_communicator());
+    rounding = std::numeric_limits<double>::epsilon() * displacement.linfty_norm() * std::sqrt(squares);
+  }
+
+  template <int dim>
+  void
+  HyperelasticFem<dim>::solve_linear(const NodalVector &right_hand_side, const double tolerance, Step &step)
+  {
+    const unsigned int    largest_number_of_iterations = 300;
+    dealii::SolverControl control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
+    correction = 0.;
+    try
+      {
+        const AlgebraicMultigrid<dim> multigrid(geometry, unknowns, held, stiffness, true);
+        dealii::SolverCG<NodalVector> cg(control);
+        cg.solve(stiffness, correction, right_hand_side, multigrid);
+        step.linear_iterations += control.last_step();
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        // The tangent of a body near a limit of stability is not positive definite.
+        dealii::TrilinosWrappers::SolverDirect direct(control);
+        direct.solve(stiffness, correction, right_hand_side);
+        ++step.linear_iterations;
+      }
+  }
+
+  template <int dim>
+  bool HyperelasticFem<dim>::search(const double norm)
+  {
+    const unsigned int max_trials = 20;
+    // Share of the slope at the start by which a step may go too far.
+    const double      overshoot = 0.5;
+    const NodalVector start     = displacement;
+    const double      slope     = correction * balance;
+    double            share     = 1.;
+    for (unsigned int trial = 0; trial < max_trials; ++trial)
+      {
+        displacement = start;
+        displacement.add(share, correction);
+        displacement.update_ghost_values();
+        compute_balance();
+        const double now = residual().l2_norm(), slope_now = correction * residual();
+        const bool   is_finite = std::isfinite(now);
+        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= rounding ||
+                          (slope > 0 && slope_now >= -overshoot * slope)))
+          return true;
+        // Towards where the slope vanishes.
+        share *= is_finite && slope > 0 ? std::max(slope / (slope - slope_now), 0.1) : 0.25;
+      }
+    displacement = start;
+    displacement.update_ghost_values();
+    compute_balance();
+    return false;
+  }
+
+  template <int dim>
+  std::string HyperelasticFem<dim>::iterate(const bool moving, const Norms &norms, Step &step)
+  {
+    const Constraints constraints = increments(moving);
+    NodalVector       right_hand_side(balance);
+    assemble_tangent(constraints, right_hand_side);
+    right_hand_side += residual();
+
+    // The residual goes with the square of what the linear solve leaves.
+    const double norm     = right_hand_side.l2_norm();
+    const double relative = norms.reference > 0 ? norm / norms.reference : 1.;
+    const double tolerance =
+      std::max({std::min(1e-3, 0.1 * relative), 0.1 * controls.tolerance / relative, 1e-12});
+    solve_linear(right_hand_side, std::min(tolerance, 0.5), step);
+    constraints.distribute(correction);
+    if (!moving)
+      return search(norm) ? "" : "no part of a step lowers the residual";
+    displacement += correction;
+    displacement.update_ghost_values();
+    compute_balance();
+    return std::isfinite(balance.l2_norm()) ? "" : "the prescribed displacements fold the body";
+  }
+
+  template <int dim>
+  typename HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double time)
+  {
+    prescribe(time);
+    make_external_force(time);
+    compute_balance();
+    double distance = 0;
+    for (const auto index : unknowns.locally_owned_dofs())
+      if (is_held(held, index))
+        distance = std::max(distance, std::abs(held.get_inhomogeneity(index) - displacement(index)));
+    bool moving = dealii::Utilities::MPI::max(distance, unknowns.get_communicator()) > 0;
+
+    Step        step;
+    Norms       norms = measure();
+    std::string problem;
+    while (problem.empty() &&
+           (moving || norms.residual > std::max(controls.tolerance * norms.reference, rounding)))
+      {
+        if (step.iterations == controls.max_iterations)
+          problem = "it did not converge";
+        else
+          {
+            problem = iterate(moving, norms, step);
+            moving  = false;
+            norms   = measure();
+            ++step.iterations;
+          }
+      }
+    step.residual = norms.reference > 0 ? norms.residual / norms.reference : 0.;
+    if (!problem.empty() || !std::isfinite(norms.residual))
+      {
+        std::ostringstream text;
+        text << "Newton's method of the finite elements stopped at t = " << time << " after "
+             << step.iterations << " iterations at a relative residual of " << step.residual << ", not at "
+             << controls.tolerance << ", since " << (problem.empty() ? "forces are not finite" : problem)
+             << "\n  advice: raise Solver/Load steps, with loads that grow with t";
+        throw ComputationError(text.str());
+      }
+    largest_load = norms.reference;
+    return step;
+  }
+
+#define INSTANTIATE(dim) template HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double)
+  INSTANTIATE(2);
+  INSTANTIATE(3);
+#undef INSTANTIATE
+} // namespace perideal
