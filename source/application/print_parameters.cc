@@ -45,6 +45,7 @@ namespace perideal
                            " subsection ANY NAME\n end\nend\n"
                            "subsection Point loads\n subsection ANY NAME\n end\nend\n"
                            "subsection Areal force densities\n subsection ANY NAME\n end\nend\n"
+                           "subsection Gauges\n subsection ANY NAME\n end\nend\n"
                            "subsection Precracks\n subsection ANY NAME\n end\nend\n"
                            "subsection No-fail zones\n subsection ANY NAME\n end\nend\n"
                            "subsection Comparison\n subsection ANY NAME\n end\nend\n"

@@ -116,6 +116,7 @@ namespace perideal
     contact.declare(prm);
     comparison.declare(prm, file);
     areal_forces.declare(prm, file);
+    gauges.declare(prm, file);
     prm.enter_subsection("Output");
     prm.add_parameter(
       "Fields",

@@ -3,6 +3,7 @@
 #include <perideal/application/areal_forces.h>
 #include <perideal/application/boundary_stress.h>
 #include <perideal/application/comparison.h>
+#include <perideal/application/gauge_records.h>
 #include <perideal/application/output_fields.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
@@ -198,6 +199,8 @@ namespace perideal
           }
     if (scene.areal_forces)
       summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
+    if (scene.gauges)
+      record_gauges(*scene.gauges, displacement, *history, &summary["gauges"]);
     history->end_row();
     const double drift   = external_work != 0 ? (external_work - strain_energy) / external_work : 0.;
     summary["energy"]    = {{"strain", strain_energy}, {"external", external_work}, {"drift", drift}};

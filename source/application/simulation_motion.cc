@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/areal_forces.h>
+#include <perideal/application/gauge_records.h>
 #include <perideal/application/output_fields.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -104,6 +105,8 @@ namespace perideal
       record_crack_tips(dynamics.n_broken(), dynamics.time());
     if (scene.areal_forces)
       summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
+    if (scene.gauges)
+      record_gauges(*scene.gauges, dynamics.displacement, *history, nullptr);
     history->end_row();
     double worst = summary.contains("energy") ? summary["energy"]["drift"].template get<double>() : 0.;
     if (std::abs(drift) > std::abs(worst))

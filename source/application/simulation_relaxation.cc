@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/areal_forces.h>
+#include <perideal/application/gauge_records.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -233,6 +234,8 @@ namespace perideal
       }
     if (scene.areal_forces)
       summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
+    if (scene.gauges)
+      record_gauges(*scene.gauges, displacement, *history, &summary["gauges"]);
     history->end_row();
     summary["energy"] = {{"strain", energy.strain},
                          {"dissipated", energy.dissipated},

@@ -130,6 +130,9 @@ namespace perideal
     if (!scene.loads.point_loads.empty())
       scene.point_forces =
         PointForces<dim>(*scene.mesh, CellGraph<dim>(*scene.mesh, *scene.nodes), scene.loads);
+    if (!parameters.gauges.gauges.empty())
+      scene.gauges = std::make_unique<Gauges<dim>>(
+        *scene.mesh, CellGraph<dim>(*scene.mesh, *scene.nodes), read_gauges<dim>(parameters.gauges));
   }
 
   template <int dim>

@@ -10,6 +10,7 @@
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/contact_force.h>
 #include <perideal/parameters/areal_force_parameters.h>
+#include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
@@ -106,6 +107,7 @@ namespace perideal
     ContactParameters    contact;
     ComparisonParameters comparison;
     ArealForceParameters areal_forces;
+    GaugeParameters      gauges;
 
     /// Declares all parameters, reads the values and checks their ranges.
     /// The blocks are bound to @p prm: this object must stay where it is.

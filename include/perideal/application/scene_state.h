@@ -4,12 +4,14 @@
 
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/boundary/face_values.h>
+#include <perideal/boundary/gauges.h>
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/boundary/point_forces.h>
 #include <perideal/boundary/printed_transfer.h>
 #include <perideal/boundary/surface_nodes.h>
 #include <perideal/fem/elastic_fem.h>
+#include <perideal/fem/hyperelastic_fem.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/no_fail_zones.h>
 #include <perideal/mesh/mesh.h>
@@ -100,6 +102,9 @@ namespace perideal
 
     /// Where the scene asks for some.
     std::unique_ptr<ArealForceDensity<dim>> areal_forces;
+    std::unique_ptr<Gauges<dim>>            gauges;
+    /// Finite elements of finite strain beside which nonlinear equilibria lie.
+    std::unique_ptr<HyperelasticFem<dim>> nonlinear_fem;
 
     // Dynamics have these, and nonlinear equilibria those of failure.
     std::array<SpaceTimeFunction<dim>, dim> initial_velocity;

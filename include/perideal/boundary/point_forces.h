@@ -5,20 +5,15 @@
 #include <perideal/base/types.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/quadrature/cell_graph.h>
-
-#include <utility>
-#include <vector>
+#include <perideal/quadrature/point_interpolation.h>
 
 namespace perideal
 {
   /**
    * Forces at points of the body or its boundary, carried by the nodes around.
    *
-   * The virtual work F v(x) of a force acts on the nodes that make v(x): the moving
-   * least squares through the vertex neighbours, of one material, of the cell that x lies in; where it
-   * lies on a face, an edge or a vertex, the mean over the cells that share it. Linear fields are
-   * reproduced, so that the nodes carry the force and its moment exactly, wherever it acts.
+   * The virtual work F v(x) of a force acts on the nodes that make v(x) (PointInterpolation). Linear fields
+   * are reproduced, so that the nodes carry the force and its moment exactly, wherever it acts.
    */
   template <int dim>
   class PointForces
@@ -35,8 +30,7 @@ namespace perideal
     void add(const Loads<dim> &loads, const double time, NodalVector &force) const;
 
   private:
-    /// Owned nodes that carry each load, with their shares.
-    std::vector<std::vector<std::pair<LocalIndex, double>>> carriers;
+    PointInterpolation<dim> carriers;
   };
 } // namespace perideal
 
