@@ -115,6 +115,12 @@ namespace perideal
         .parameter("Material/Boundary compensation")
         .given(model.boundary_compensation)
         .allowed("none with Displacement treatment = mirror");
+    if (nodes.perturbation > 0 &&
+        (quadrature.scheme == "cubic cell" || quadrature.scheme == "partial volume"))
+      throw InputError("this scheme takes cells for squares or cubes about their nodes, which are elsewhere")
+        .parameter("Quadrature/Scheme")
+        .given(quadrature.scheme)
+        .allowed("one point | adaptive | exact | gauss points with Nodes/Perturbation");
     if (!quadrature.has_gauss_points())
       return;
     const auto complain = [this](const std::string &what) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/nodes/cell_keys.h>
 #include <perideal/nodes/curve_order.h>
 #include <perideal/nodes/nodes.h>
 
@@ -15,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 namespace perideal
 {
@@ -72,6 +74,13 @@ namespace perideal
                       "that are long in one direction (consistent form only); automatic: cell for the "
                       "consistent form where the mean aspect ratio of the cells is above 3, else sphere",
                       dealii::Patterns::Selection("automatic|sphere|cell"));
+    prm.add_parameter(
+      "Perturbation",
+      perturbation,
+      "Random cloud of points: how far nodes lie off the centroids of their cells, whose volumes "
+      "they keep, along each edge by this share of it times a uniform number from -1/2 to 1/2, the "
+      "same for any number of ranks; for studies, 0 to 0.5 [-]",
+      dealii::Patterns::Double());
     prm.leave_subsection();
   }
 
@@ -82,6 +91,11 @@ namespace perideal
       throw InputError("this horizon makes no families")
         .parameter("Nodes/Horizon factor")
         .allowed("1.01 to 20; 3.01 is usual");
+    // A convex quadrilateral of any shape keeps its node up to 2/3; the thinnest, a triangle, not beyond.
+    if (!(perturbation >= 0 && perturbation <= 0.5))
+      throw InputError("nodes must stay within their cells, whatever the shape of these")
+        .parameter("Nodes/Perturbation")
+        .allowed("0 to 0.5, which moves nodes by up to a quarter of an edge");
   }
 
   template <int dim>
@@ -183,6 +197,25 @@ namespace perideal
       }
 
     this->number();
+    if (parameters.perturbation > 0)
+      perturb(mesh, parameters.perturbation);
+  }
+
+  template <int dim>
+  void Nodes<dim>::perturb(const Mesh<dim> &mesh, const double eta)
+  {
+    const auto keys = cell_keys(mesh, *this);
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const LocalIndex       i     = node_of_cell[cell->active_cell_index()];
+          const auto             edges = mean_jacobian<dim>(cell, std::pow(this->spacing[i], dim));
+          std::mt19937_64        random(keys[i]);
+          dealii::Tensor<1, dim> share;
+          for (int d = 0; d < dim; ++d)
+            share[d] = eta * (std::generate_canonical<double, 53>(random) - 0.5);
+          this->position[i] += edges * share;
+        }
   }
 
   template <int dim>

@@ -20,9 +20,11 @@ namespace perideal
     double horizon_factor = 3.01;
     /// automatic | sphere | cell: whether horizons are spheres or have the shape of the cells.
     std::string horizon_shape = "automatic";
+    /// How far nodes lie off the centroids, over the edges of their cells: at most half of this [-].
+    double perturbation = 0.;
 
     void declare(dealii::ParameterHandler &prm);
-    /// @throws InputError when the factor cannot make families.
+    /// @throws InputError when the factor cannot make families, or a perturbation takes nodes out of cells.
     void check() const;
   };
 
@@ -46,7 +48,7 @@ namespace perideal
     /// Sets first_global and n_global from the sizes on all ranks. Collective.
     void number();
 
-    /// Where the nodes are [m]; centroids of cells.
+    /// Where the nodes are [m]; centroids of cells, unless they were perturbed.
     std::vector<dealii::Point<dim>> position;
     /// Volumes, in 2-D area times thickness [m^3].
     std::vector<double> volume;
@@ -106,6 +108,11 @@ namespace perideal
 
   private:
     void choose_shape(const Mesh<dim> &mesh, const NodeParameters &parameters);
+
+    /// Moves each node along the edges of its cell, by eta times their length times a number from -1/2 to 1/2
+    /// that depends on the cell alone. (VNOSB eq. (24) has numbers from 0 to 1, which moves the cloud as a
+    /// whole by half a perturbation off the body.)
+    void perturb(const Mesh<dim> &mesh, const double eta);
   };
 } // namespace perideal
 

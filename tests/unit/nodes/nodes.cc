@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/nodes/nodes.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
 #include "bodies.h"
 #include "testing.h"
 
@@ -71,4 +75,98 @@ TEST(Nodes, RejectHorizonsThatMakeNoFamilies)
   const auto mesh = test::make_box<2>({3, 3}, {1., 1.}, 0.);
   for (const double factor : {-3., 0., 1., 100., std::nan("")})
     test::expect_input_error([&] { Nodes<2>(*mesh, NodeParameters{factor}); }, {"Nodes/Horizon factor"});
+}
+
+namespace
+{
+  NodeParameters perturbed(const double eta)
+  {
+    NodeParameters result;
+    result.perturbation = eta;
+    return result;
+  }
+
+  /// Nodes stay within their cells and keep all but their places.
+  template <int dim>
+  void expect_within_cells(const Mesh<dim> &mesh)
+  {
+    const Nodes<dim> before(mesh, perturbed(0.)), after(mesh, perturbed(0.5));
+    EXPECT_EQ(before.volume, after.volume);
+    EXPECT_EQ(before.horizon, after.horizon);
+    EXPECT_EQ(before.node_of_cell, after.node_of_cell);
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const LocalIndex i = before.node_of_cell[cell->active_cell_index()];
+          EXPECT_TRUE(cell->point_inside(after.position[i])) << after.position[i] << " left its cell";
+          EXPECT_GT(after.position[i].distance(before.position[i]), 0.);
+        }
+  }
+
+  /// Positions of all ranks, in ascending order.
+  template <int dim>
+  std::vector<std::array<double, dim>> sorted_positions(const Nodes<dim> &nodes)
+  {
+    std::vector<std::array<double, dim>> own, result;
+    for (const auto &x : nodes.position)
+      {
+        own.emplace_back();
+        std::copy_n(x.begin_raw(), dim, own.back().begin());
+      }
+    for (const auto &part : dealii::Utilities::MPI::all_gather(nodes.communicator, own))
+      result.insert(result.end(), part.begin(), part.end());
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+} // namespace
+
+TEST(Nodes, PerturbedOnesStayInTheirCells)
+{
+  expect_within_cells<2>(*test::make_box<2>({9, 7}, {1., 1.}, 0.));
+  expect_within_cells<2>(*test::make_box<2>({9, 7}, {1., 1.}, 0.3));
+  expect_within_cells<2>(*test::make_box<2>({30, 2}, {1., 1.}, 0.2));
+  expect_within_cells<3>(*test::make_box<3>({5, 4, 4}, {1., 1., 1.}, 0.2));
+}
+
+TEST(Nodes, PerturbationsAreUniformAboutTheCentroids)
+{
+  // Cells of 0.025 x 0.1: each direction has its own edge. Uniform numbers in [-1/2, 1/2] have mean 0 and
+  // mean square 1/12; of 800 of them four standard deviations of these are 0.041 and 0.0105.
+  const auto     mesh = test::make_box<2>({40, 20}, {1., 2.}, 0.);
+  const Nodes<2> before(*mesh, perturbed(0.)), tenth(*mesh, perturbed(0.1)), half(*mesh, perturbed(0.5));
+  const double   edge[] = {0.025, 0.1};
+  for (int d = 0; d < 2; ++d)
+    {
+      double mean = 0, square = 0, largest = 0;
+      for (LocalIndex i = 0; i < before.size(); ++i)
+        {
+          const double share = (half.position[i][d] - before.position[i][d]) / (0.5 * edge[d]);
+          mean += share / 800;
+          square += share * share / 800;
+          largest = std::max(largest, std::abs(share));
+          EXPECT_NEAR(tenth.position[i][d] - before.position[i][d], 0.1 * edge[d] * share, 1e-15);
+        }
+      EXPECT_NEAR(dealii::Utilities::MPI::sum(mean, MPI_COMM_WORLD), 0., 0.041);
+      EXPECT_NEAR(dealii::Utilities::MPI::sum(square, MPI_COMM_WORLD), 1. / 12, 0.0105);
+      EXPECT_LE(largest, 0.5 + 1e-12);
+    }
+}
+
+TEST(Nodes, PerturbationsDoNotDependOnRanks)
+{
+  const auto distributed = test::make_refined_box<2>({8, 8}, {0.3, 0.4}, 0.3);
+  const auto alone       = test::make_refined_box<2>({8, 8}, {0.3, 0.4}, 0.3, MPI_COMM_SELF);
+  const auto found       = sorted_positions(Nodes<2>(*distributed, perturbed(0.5)));
+  const auto expected    = sorted_positions(Nodes<2>(*alone, perturbed(0.5)));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (int d = 0; d < 2; ++d)
+      EXPECT_NEAR(found[i][d], expected[i][d], 1e-14);
+}
+
+TEST(Nodes, RejectPerturbationsThatLeaveCells)
+{
+  const auto mesh = test::make_box<2>({3, 3}, {1., 1.}, 0.);
+  for (const double eta : {-0.1, 0.7, std::nan("")})
+    test::expect_input_error([&] { Nodes<2>(*mesh, perturbed(eta)); }, {"Nodes/Perturbation", "0 to 0.5"});
 }
