@@ -5,6 +5,7 @@
 #include <perideal/application/comparison.h>
 #include <perideal/application/gauge_records.h>
 #include <perideal/application/output_fields.h>
+#include <perideal/application/prescribed_displacements.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/application/versions.h>
@@ -197,6 +198,7 @@ namespace perideal
             history->add("reaction of " + name + " along " + axes[d] + " [N]", value);
             reactions[name].push_back(value);
           }
+    summary["displacements"] = record_displacements(scene, time, *history);
     if (scene.areal_forces)
       summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
     if (scene.gauges)

@@ -2,6 +2,7 @@
 #include <perideal/application/areal_forces.h>
 #include <perideal/application/gauge_records.h>
 #include <perideal/application/output_fields.h>
+#include <perideal/application/prescribed_displacements.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/output/summary.h>
@@ -101,6 +102,7 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           history->add("reaction of " + scene.loads.conditions[k].name + " along " + axes[d] + " [N]",
                        reactions[k][d]);
+    summary["displacements"] = record_displacements(scene, dynamics.time(), *history);
     if (scene.crack_tracker)
       record_crack_tips(dynamics.n_broken(), dynamics.time());
     if (scene.areal_forces)

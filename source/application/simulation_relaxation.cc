@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/areal_forces.h>
 #include <perideal/application/gauge_records.h>
+#include <perideal/application/prescribed_displacements.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
@@ -226,6 +227,7 @@ namespace perideal
           reactions[k] += at_faces[k];
       }
     record_reactions<dim>(scene.loads, reactions, *history, summary);
+    summary["displacements"] = record_displacements(scene, time, *history);
     if (scene.crack_tracker)
       {
         scene.crack_tracker->update(time, total_damage());
