@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/text.h>
 #include <perideal/fracture/stress_criteria.h>
 #include <perideal/operators/correspondence_tangent.h>
+
+#include <deal.II/base/mpi.h>
 
 // Simulation: the correspondence model.
 
@@ -40,7 +43,25 @@ namespace perideal
       can_break);
   }
 
+  template <int dim>
+  void Simulation<dim>::warn_of_lost_thickness()
+  {
+    const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(scene.force.get());
+    if (force == nullptr || dim == 3)
+      return;
+    GlobalIndex number = 0;
+    LocalIndex  i      = 0;
+    for (const auto &H : force->gradients())
+      number += force->law(i++).thickness_stretch(H) > 0 ? 0 : 1;
+    number                             = dealii::Utilities::MPI::sum(number, communicator);
+    summary["nodes_without_thickness"] = number;
+    if (number > 0)
+      screen << "warning     at " << grouped(number)
+             << " nodes the law leaves the body no thickness: it is used beyond its range" << std::endl;
+  }
+
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template void Simulation<dim>::warn_of_lost_thickness();                                                   \
   template void Simulation<dim>::make_correspondence();                                                      \
   template void Simulation<dim>::set_strengths(                                                              \
     const std::function<bool(const LocalIndex, const LocalIndex)> &);

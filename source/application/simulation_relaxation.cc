@@ -122,6 +122,7 @@ namespace perideal
       {
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
           load_step(number, path);
+        warn_of_lost_thickness();
         if (scene.crack_tracker)
           scene.crack_tracker->write_paths(parameters.output_directory);
       }

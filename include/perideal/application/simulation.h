@@ -64,6 +64,8 @@ namespace perideal
     void weigh_bonds();
     void weigh_gauss_points();
     void make_correspondence();
+    /// Counts the nodes whose plane law leaves no thickness. Collective.
+    void warn_of_lost_thickness();
     /// Factors that stiffen bonds near the surface, by owned node; empty where the scene has none.
     /// Collective.
     /// @param points of the cells; null: one point each
