@@ -9,6 +9,27 @@ namespace perideal
 {
   using Json = nlohmann::ordered_json;
 
+  namespace
+  {
+    /// Finite elements on the mesh itself, rigid-body motions removed.
+    template <int dim, typename Fem>
+    NodalField<dim> at_nodes(const SceneState<dim> &scene, const Fem &fem)
+    {
+      const auto                     &node_of_cell = scene.nodes->node_of_cell;
+      std::vector<dealii::Point<dim>> point_of_cell(node_of_cell.size());
+      for (std::size_t cell = 0; cell < point_of_cell.size(); ++cell)
+        if (node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+          point_of_cell[cell] = scene.nodes->position[node_of_cell[cell]];
+      const auto      values = fem.evaluate_in_cells(point_of_cell);
+      NodalField<dim> result(scene.nodes->size());
+      for (std::size_t cell = 0; cell < values.size(); ++cell)
+        if (node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+          result[node_of_cell[cell]] = values[cell];
+      scene.null_space.remove_mean(*scene.nodes, result);
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   NodalField<dim> solve_fem(const SceneState<dim>       &scene,
                             const SolidsByMaterial<dim> &solids,
@@ -17,33 +38,26 @@ namespace perideal
                             Timings                     &timings,
                             Json                        &report)
   {
-    NodalField<dim> result(scene.nodes->size());
+    const Timings::Scope scope(timings, "fem");
+    ElasticFem<dim>      fem(*scene.mesh, scene.loads);
     {
-      const Timings::Scope scope(timings, "fem");
-      ElasticFem<dim>      fem(*scene.mesh, scene.loads);
-      {
-        const Timings::Scope part(timings, "fem: assembly");
-        fem.assemble(solids, time);
-      }
-      {
-        const Timings::Scope part(timings, "fem: multigrid");
-        fem.set_up_solver();
-      }
-      const Timings::Scope part(timings, "fem: solve");
-      report["iterations"].push_back(fem.solve(tolerance));
-      report["unknowns"] = fem.n_dofs();
-
-      std::vector<dealii::Point<dim>> point_of_cell(scene.nodes->node_of_cell.size());
-      for (std::size_t cell = 0; cell < point_of_cell.size(); ++cell)
-        if (scene.nodes->node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
-          point_of_cell[cell] = scene.nodes->position[scene.nodes->node_of_cell[cell]];
-      const auto values = fem.evaluate_in_cells(point_of_cell);
-      for (std::size_t cell = 0; cell < values.size(); ++cell)
-        if (scene.nodes->node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
-          result[scene.nodes->node_of_cell[cell]] = values[cell];
+      const Timings::Scope part(timings, "fem: assembly");
+      fem.assemble(solids, time);
     }
-    scene.null_space.remove_mean(*scene.nodes, result);
-    return result;
+    {
+      const Timings::Scope part(timings, "fem: multigrid");
+      fem.set_up_solver();
+    }
+    const Timings::Scope part(timings, "fem: solve");
+    report["iterations"].push_back(fem.solve(tolerance));
+    report["unknowns"] = fem.n_dofs();
+    return at_nodes<dim>(scene, fem);
+  }
+
+  template <int dim>
+  NodalField<dim> nonlinear_fem_at_nodes(const SceneState<dim> &scene)
+  {
+    return at_nodes<dim>(scene, *scene.nonlinear_fem);
   }
 
   template <int dim>
@@ -181,6 +195,7 @@ namespace perideal
                                      const double,                                                           \
                                      Timings &,                                                              \
                                      nlohmann::ordered_json &);                                              \
+  template NodalField<dim> nonlinear_fem_at_nodes(const SceneState<dim> &);                                  \
   template NodalField<dim> solve_reference(const SceneState<dim> &,                                          \
                                            const Mesh<dim> &,                                                \
                                            const SolidsByMaterial<dim> &,                                    \

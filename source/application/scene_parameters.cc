@@ -14,7 +14,11 @@ namespace perideal
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Comparison");
-    prm.add_parameter("FEM", fem, "Solve with Q1 finite elements on the same mesh and compare", Bool());
+    prm.add_parameter("FEM",
+                      fem,
+                      "Solve with Q1 finite elements on the same mesh and compare; of the same law along the "
+                      "same load steps, where quasi static has Material/Model = correspondence, else linear",
+                      Bool());
     prm.add_parameter("Reference",
                       reference,
                       "Solve with Q2 finite elements on the refined mesh and compare with that as converged",

@@ -229,7 +229,9 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::compare_at_end(const double time)
   {
-    if (parameters.comparison.fem)
+    if (scene.nonlinear_fem)
+      scene.comparisons["fem"] = nonlinear_fem_at_nodes(scene);
+    else if (parameters.comparison.fem)
       scene.comparisons["fem"] = solve_fem(
         scene, compared_solids_on(*scene.mesh), time, parameters.solver.tolerance, timings, summary["fem"]);
     const auto &exact = parameters.comparison.exact;

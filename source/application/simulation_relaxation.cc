@@ -118,6 +118,8 @@ namespace perideal
   {
     if (scene.crack_tracker)
       scene.crack_tracker->start(scene.force->cut_share());
+    if (parameters.comparison.fem && parameters.model.is_correspondence())
+      set_up_nonlinear_fem();
     try
       {
         for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
@@ -184,6 +186,8 @@ namespace perideal
     summary["solver"]["halvings"].push_back(halvings);
     displacement = path.displacement;
     store_displacement();
+    if (scene.nonlinear_fem)
+      solve_nonlinear_fem(end);
     record_equilibrium(number, result, path);
     if (!result.converged)
       throw ComputationError(
@@ -239,6 +243,8 @@ namespace perideal
       summary["areal_force_densities"] = record_areal_forces(scene, parameters, *history);
     if (scene.gauges)
       record_gauges(*scene.gauges, displacement, *history, &summary["gauges"]);
+    if (scene.nonlinear_fem)
+      record_nonlinear_fem();
     history->end_row();
     summary["energy"] = {{"strain", energy.strain},
                          {"dissipated", energy.dissipated},

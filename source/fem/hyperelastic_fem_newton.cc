@@ -137,7 +137,7 @@ namespace perideal
   }
 
   template <int dim>
-  typename HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double time)
+  std::string HyperelasticFem<dim>::find_equilibrium(const double time, Step &step)
   {
     prescribe(time);
     make_external_force(time);
@@ -148,34 +148,58 @@ namespace perideal
         distance = std::max(distance, std::abs(held.get_inhomogeneity(index) - displacement(index)));
     bool moving = dealii::Utilities::MPI::max(distance, unknowns.get_communicator()) > 0;
 
-    Step        step;
-    Norms       norms = measure();
-    std::string problem;
-    while (problem.empty() &&
-           (moving || norms.residual > std::max(controls.tolerance * norms.reference, rounding)))
+    Norms norms = measure();
+    for (unsigned int iteration = 0;
+         moving || norms.residual > std::max(controls.tolerance * norms.reference, rounding);
+         ++iteration)
       {
-        if (step.iterations == controls.max_iterations)
-          problem = "it did not converge";
-        else
-          {
-            problem = iterate(moving, norms, step);
-            moving  = false;
-            norms   = measure();
-            ++step.iterations;
-          }
-      }
-    step.residual = norms.reference > 0 ? norms.residual / norms.reference : 0.;
-    if (!problem.empty() || !std::isfinite(norms.residual))
-      {
-        std::ostringstream text;
-        text << "Newton's method of the finite elements stopped at t = " << time << " after "
-             << step.iterations << " iterations at a relative residual of " << step.residual << ", not at "
-             << controls.tolerance << ", since " << (problem.empty() ? "forces are not finite" : problem)
-             << "\n  advice: raise Solver/Load steps, with loads that grow with t";
-        throw ComputationError(text.str());
+        if (iteration == controls.max_iterations)
+          return "it did not converge";
+        ++step.iterations;
+        const std::string problem = iterate(moving, norms, step);
+        if (!problem.empty())
+          return problem;
+        moving        = false;
+        norms         = measure();
+        step.residual = norms.reference > 0 ? norms.residual / norms.reference : 0.;
       }
     largest_load = norms.reference;
-    return step;
+    return "";
+  }
+
+  template <int dim>
+  typename HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double time)
+  {
+    Step        step;
+    NodalVector start = displacement;
+    for (double part = time - last_time;;)
+      {
+        const double      next    = last_time + part > time - 1e-3 * part ? time : last_time + part;
+        const std::string problem = find_equilibrium(next, step);
+        if (problem.empty())
+          {
+            last_time = next;
+            if (next == time)
+              return step;
+            start = displacement;
+          }
+        else if (step.halvings < controls.halvings)
+          {
+            ++step.halvings;
+            part *= 0.5;
+            displacement = start;
+            displacement.update_ghost_values();
+          }
+        else
+          {
+            std::ostringstream text;
+            text << "Newton's method of the finite elements stopped at t = " << next << " after "
+                 << step.iterations << " iterations at a relative residual of " << step.residual
+                 << ", not at " << controls.tolerance << ", since " << problem
+                 << "\n  advice: raise Solver/Load steps, with loads that grow with t";
+            throw ComputationError(text.str());
+          }
+      }
   }
 
 #define INSTANTIATE(dim) template HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double)

@@ -25,6 +25,10 @@ namespace perideal
                             Timings                     &timings,
                             nlohmann::ordered_json      &report);
 
+  /// Those of finite strain, as solved last, at the nodes.
+  template <int dim>
+  NodalField<dim> nonlinear_fem_at_nodes(const SceneState<dim> &scene);
+
   /// Q2 finite elements on a mesh of the body, refined, at the nodes. Collective.
   /// @param solids by the mesh's material ids
   template <int dim>

@@ -152,6 +152,12 @@ namespace perideal
     void run_load_steps(EquilibriumPath<dim> &path);
     /// A load step, in parts where it fails as a whole.
     void load_step(const unsigned int number, EquilibriumPath<dim> &path);
+    /// Finite elements of finite strain along the same load steps. Collective.
+    void set_up_nonlinear_fem();
+    /// Their equilibrium at a time.
+    void solve_nonlinear_fem(const double time);
+    /// Adds it to the row of the history and to the summary.
+    void record_nonlinear_fem();
     EquilibriumStep
          find_equilibrium(const unsigned int number, const double time, EquilibriumPath<dim> &path);
     void record_equilibrium(const unsigned int          number,

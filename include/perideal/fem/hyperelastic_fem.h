@@ -40,8 +40,10 @@ namespace perideal
       /// Residual norm of the free unknowns over that of the loads or of the reactions, whichever is the
       /// largest now and at any earlier equilibrium.
       double tolerance = 1e-8;
-      /// Iterations after which a step has failed.
+      /// Iterations after which an equilibrium has failed.
       unsigned int max_iterations = 25;
+      /// How often, altogether, what is left of a step that fails may be halved.
+      unsigned int halvings = 5;
     };
 
     /// What a load step took.
@@ -49,6 +51,7 @@ namespace perideal
     {
       unsigned int iterations        = 0;
       unsigned int linear_iterations = 0;
+      unsigned int halvings          = 0;
       /// Relative, at the end.
       double residual = 0;
     };
@@ -94,6 +97,8 @@ namespace perideal
       double residual, reference;
     };
 
+    /// Goes to the equilibrium at a time, and adds what it took; empty, or why there is none. Collective.
+    std::string find_equilibrium(const double time, Step &step);
     /// Held unknowns with their values at a time, and hanging nodes.
     void prescribe(const double time);
     /// Increments: of held unknowns to where they belong, or none of them.
@@ -134,6 +139,8 @@ namespace perideal
     Constraints                            held, hanging;
     dealii::TrilinosWrappers::SparseMatrix stiffness;
     NodalVector                            displacement, external_force, balance, correction;
+    /// Of the last equilibrium [s].
+    double last_time = 0;
     /// Of the reactions or loads at an equilibrium so far; of the forces that rounding makes now [N].
     double largest_load = 0, rounding = 0;
   };
