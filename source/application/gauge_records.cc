@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/gauge_records.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace perideal
 {
   template <int dim>
@@ -34,6 +37,10 @@ namespace perideal
         const std::string &name = gauges.list()[k].name;
         history.add("fem: stretch of " + name + " [-]", readings[k].stretch);
         summary[name]["fem"].push_back(readings[k].stretch);
+        const double difference =
+          std::abs(readings[k].stretch - summary[name]["stretch"].back().template get<double>());
+        summary[name]["largest_difference"] =
+          std::max(difference, summary[name].value("largest_difference", 0.));
       }
   }
 
