@@ -7,6 +7,7 @@
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <ml_utils.h>
 
 namespace perideal
 {
@@ -94,7 +95,12 @@ namespace perideal
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
     fill_rigid_body_modes(mapping, unknowns, constraints, modes);
+    // ML estimates eigenvalues from random vectors. Once it has chosen a seed (0: not yet), that is put back,
+    // so that set-ups do not depend on how many there were: a run that goes on from a checkpoint has fewer.
+    const int seed = ML_get_random_seed();
     implementation->multigrid.initialize(matrix, multigrid_options<dim>(modes, smooth_finest));
+    if (seed != 0)
+      ML_set_random_seed(seed);
   }
 
   template <int dim>
