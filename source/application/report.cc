@@ -390,6 +390,13 @@ namespace perideal
     return out.str();
   }
 
+  std::string describe_stop(const std::string &step)
+  {
+    return "asked to stop after " + step +
+           "; the checkpoint is written\n  advice: to go on, run the same scene with --set "
+           "Checkpoints/Restart=true";
+  }
+
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &);            \
   template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);                       \

@@ -240,10 +240,6 @@ namespace perideal
         if (!initial.velocity[d].empty())
           complain(std::string("Initial conditions/v_") + axes[d]);
       }
-    if (checkpoints.steps > 0)
-      complain("Checkpoints/Steps");
-    if (checkpoints.restart)
-      complain("Checkpoints/Restart");
     if (model.recomputes())
       complain("Material/Multipliers");
   }
@@ -284,6 +280,10 @@ namespace perideal
         .hint("set Solver/Name = dynamics, or = quasi static");
     };
     check_no_motion();
+    if (checkpoints.steps > 0)
+      complain("Checkpoints/Steps");
+    if (checkpoints.restart)
+      complain("Checkpoints/Restart");
     for (const std::string &field : field_names())
       if (field == "velocity" || field == "damage" || field == "precracks")
         throw InputError("this field belongs to dynamics")

@@ -86,8 +86,9 @@ namespace perideal
     prm.enter_subsection("Checkpoints");
     prm.add_parameter("Steps",
                       steps,
-                      "Steps of dynamics between two checkpoints, from which a run that was stopped goes on; "
-                      "0: only when the program is asked to stop (SIGTERM, SIGINT)",
+                      "Steps of dynamics, or load steps of quasi static and dynamic relaxation, between two "
+                      "checkpoints, from which a run that was stopped goes on; 0: only when the program is "
+                      "asked to stop (SIGTERM, SIGINT), which it does after the step",
                       Integer(0));
     prm.add_parameter(
       "Restart",

@@ -87,10 +87,12 @@ namespace perideal
   void Simulation<dim>::open_outputs()
   {
     const bool is_series = parameters.solver.is_dynamic() || parameters.solver.load_steps > 1;
+    // Dynamics have moved on to their step, load steps have recorded theirs.
+    const double last_row = parameters.solver.is_dynamic() ? -0.5 : 0.5;
     history =
       std::make_unique<History>(parameters.output_directory,
                                 communicator,
-                                resumed ? resumed->header.at("step").template get<double>() - 0.5 : -1.);
+                                resumed ? resumed->header.at("step").template get<double>() + last_row : -1.);
     field_output = std::make_unique<FieldOutput<dim>>(*scene.mesh,
                                                       *scene.nodes,
                                                       parameters.output_directory,
@@ -248,7 +250,8 @@ namespace perideal
       const Timings::Scope scope(timings, "output");
       const bool           dynamic = parameters.solver.is_dynamic();
       if (status != "done" &&
-          (dynamic ? motion_time > frame_time : scene.displacement.size() == scene.nodes->size()))
+          (dynamic ? motion_time > frame_time :
+                     status == "failed" && scene.displacement.size() == scene.nodes->size()))
         {
           // What there is may show what went wrong.
           field_output->add_vector("displacement", scene.displacement);

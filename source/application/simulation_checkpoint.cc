@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-// Simulation: dynamics are stopped and go on.
+// Simulation: what goes on in steps is stopped and goes on; dynamics in particular.
 
 namespace perideal
 {
@@ -45,13 +45,24 @@ namespace perideal
 
     /// Owned nodes and ghosts. Collective.
     template <int dim>
-    CheckpointNodes
-    checkpoint_nodes(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const Families<dim> &families)
+    CheckpointNodes checkpoint_nodes(const SceneState<dim> &scene)
     {
-      CheckpointNodes result{cell_keys(mesh, nodes), {}, nodes.size(), nodes.n_global, nodes.communicator};
+      const Families<dim> &families = *scene.families;
+      CheckpointNodes      result{cell_keys(*scene.mesh, *scene.nodes),
+                             {},
+                             families.n_owned(),
+                             scene.unknowns().n_global,
+                             families.communicator};
+      if (scene.surface_nodes)
+        {
+          // Cells have at most six; no cell uses the highest bits.
+          std::vector<std::uint64_t> n_of_cell(scene.nodes->size(), 0);
+          for (const LocalIndex cell : scene.surface_nodes->cell_nodes())
+            result.key.push_back(result.key[cell] | (++n_of_cell[cell] << 61));
+        }
       // Halves of keys are exact as doubles.
       NodalVector halves(families.make_partitioner(2));
-      for (LocalIndex i = 0; i < nodes.size(); ++i)
+      for (LocalIndex i = 0; i < families.n_owned(); ++i)
         {
           halves.local_element(2 * i)     = static_cast<double>(result.key[i] >> 32);
           halves.local_element(2 * i + 1) = static_cast<double>(result.key[i] & 0xffffffffu);
@@ -60,7 +71,7 @@ namespace perideal
       for (LocalIndex i = 0; i < families.n_local(); ++i)
         {
           result.number.push_back(families.global_number(i));
-          if (i >= nodes.size())
+          if (i >= families.n_owned())
             result.key.push_back((static_cast<std::uint64_t>(halves.local_element(2 * i)) << 32) |
                                  static_cast<std::uint64_t>(halves.local_element(2 * i + 1)));
         }
@@ -69,80 +80,105 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  Checkpoint Simulation<dim>::start_checkpoint(const unsigned int step, const double time) const
+  {
+    Checkpoint result;
+    result.header = {{"step", step},
+                     {"time", time},
+                     {"largest energy", largest_energy},
+                     {"damage", summary.value("damage", Json::object())},
+                     {"energy", summary.value("energy", Json::object())},
+                     {"parameters", context.parameters}};
+    if (scene.crack_tracker)
+      {
+        result.fields["crack"] = scene.crack_tracker->state();
+        result.fields["crack"].resize(scene.unknowns().size());
+      }
+    result.broken = scene.force->broken_bonds();
+    return result;
+  }
+
+  template <int dim>
+  void Simulation<dim>::write(const Checkpoint &checkpoint)
+  {
+    write_checkpoint(parameters.output_directory, checkpoint, checkpoint_nodes(scene));
+  }
+
+  template <int dim>
+  void Simulation<dim>::open_checkpoint()
+  {
+    resumed =
+      std::make_unique<Checkpoint>(read_checkpoint(parameters.output_directory, checkpoint_nodes(scene)));
+    compare_scenes(resumed->header.at("parameters"), context.parameters);
+    const double time = resumed->header.at("time").template get<double>();
+    if (parameters.solver.is_dynamic() && !(time < parameters.solver.end_time))
+      throw InputError("the checkpoint is at the end already")
+        .parameter("Solver/End time")
+        .allowed("more than " + short_number(time) + " s");
+    screen << "restart     from " << (parameters.solver.is_dynamic() ? "step " : "load step ")
+           << resumed->header.at("step").template get<unsigned int>() << ", t = " << short_number(time)
+           << (parameters.solver.is_dynamic() ? " s" : "") << std::endl;
+  }
+
+  template <int dim>
+  void Simulation<dim>::resume_scene()
+  {
+    if (scene.crack_tracker)
+      {
+        std::vector<double> &state = resumed->fields.at("crack");
+        state.resize(scene.nodes->size());
+        scene.crack_tracker->resume(state);
+      }
+    scene.force->restore_broken(resumed->broken);
+    largest_energy    = resumed->header.at("largest energy").template get<double>();
+    summary["damage"] = resumed->header.at("damage");
+    summary["energy"] = resumed->header.at("energy");
+  }
+
+  template <int dim>
   void Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step)
   {
     const Timings::Scope scope(timings, "output");
-    Checkpoint           checkpoint;
-    checkpoint.header = {{"step", dynamics.step()},
-                         {"time", dynamics.time()},
-                         {"time step", time_step},
-                         {"broken bonds", dynamics.n_broken()},
-                         {"dissipated energy", dynamics.dissipated_energy()},
-                         {"largest energy", largest_energy},
-                         {"frames", frame_times},
-                         {"damage", summary["damage"]},
-                         {"energy", summary["energy"]},
-                         {"contact", summary.value("contact", Json::object())},
-                         {"parameters", context.parameters}};
-    checkpoint.fields["displacement"].assign(dynamics.displacement.begin(), dynamics.displacement.end());
-    checkpoint.fields["velocity"].assign(dynamics.velocity.begin(), dynamics.velocity.end());
-    if (scene.crack_tracker)
-      checkpoint.fields["crack"] = scene.crack_tracker->state();
+    Checkpoint           checkpoint = start_checkpoint(dynamics.step(), dynamics.time());
+    checkpoint.header.update({{"time step", time_step},
+                              {"broken bonds", dynamics.n_broken()},
+                              {"dissipated energy", dynamics.dissipated_energy()},
+                              {"frames", frame_times},
+                              {"contact", summary.value("contact", Json::object())}});
+    checkpoint.put("displacement", dynamics.displacement);
+    checkpoint.put("velocity", dynamics.velocity);
     checkpoint.shares = dynamics.energy_shares();
-    checkpoint.broken = scene.force->broken_bonds();
-    write_checkpoint(
-      parameters.output_directory, checkpoint, checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families));
+    write(checkpoint);
     // The run that goes on makes its lists anew; this one does so too, for the same order of sums.
     if (scene.contact)
       scene.contact->forget_lists();
   }
 
   template <int dim>
-  void Simulation<dim>::open_checkpoint()
-  {
-    resumed = std::make_unique<Checkpoint>(read_checkpoint(
-      parameters.output_directory, checkpoint_nodes(*scene.mesh, *scene.nodes, *scene.families)));
-    compare_scenes(resumed->header.at("parameters"), context.parameters);
-    const double time = resumed->header.at("time").template get<double>();
-    if (!(time < parameters.solver.end_time))
-      throw InputError("the checkpoint is at the end already")
-        .parameter("Solver/End time")
-        .allowed("more than " + short_number(time) + " s");
-    screen << "restart     from step " << resumed->header.at("step").template get<unsigned int>()
-           << ", t = " << short_number(time) << " s" << std::endl;
-  }
-
-  template <int dim>
   void Simulation<dim>::resume(ExplicitDynamics<dim> &dynamics)
   {
     const Json &header = resumed->header;
-    const auto  take   = [&](const std::string &name, auto &values) {
-      std::copy(resumed->fields.at(name).begin(), resumed->fields.at(name).end(), values.begin());
-    };
-    take("displacement", dynamics.displacement);
-    take("velocity", dynamics.velocity);
+    resumed->take("displacement", dynamics.displacement);
+    resumed->take("velocity", dynamics.velocity);
     dynamics.resume(header.at("step").template get<unsigned int>(),
                     header.at("broken bonds").template get<GlobalIndex>(),
                     header.at("dissipated energy").template get<double>(),
                     resumed->shares);
-    if (scene.crack_tracker)
-      scene.crack_tracker->resume(resumed->fields.at("crack"));
-    scene.force->restore_broken(resumed->broken);
-
-    largest_energy = header.at("largest energy").template get<double>();
-    frame_times    = header.at("frames").template get<std::vector<double>>();
+    resume_scene();
+    frame_times = header.at("frames").template get<std::vector<double>>();
     field_output->resume(frame_times);
-    summary["damage"] = header.at("damage");
-    summary["energy"] = header.at("energy");
     if (scene.contact)
       summary["contact"] = header.at("contact");
     resumed.reset();
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &, const double);               \
-  template void Simulation<dim>::open_checkpoint();                                                          \
-  template void Simulation<dim>::resume(ExplicitDynamics<dim> &);
+  template Checkpoint Simulation<dim>::start_checkpoint(const unsigned int, const double) const;             \
+  template void       Simulation<dim>::write(const Checkpoint &);                                            \
+  template void       Simulation<dim>::open_checkpoint();                                                    \
+  template void       Simulation<dim>::resume_scene();                                                       \
+  template void       Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &, const double);         \
+  template void       Simulation<dim>::resume(ExplicitDynamics<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

@@ -192,11 +192,8 @@ namespace perideal
       }
     finish(reached_end ? "done" : "stopped");
     if (!reached_end)
-      throw ComputationError(
-        "asked to stop after step " + std::to_string(dynamics.step()) +
-        ", t = " + short_number(dynamics.time()) +
-        " s; the checkpoint is written\n  advice: to go on, run the same scene with --set "
-        "Checkpoints/Restart=true");
+      throw ComputationError(describe_stop("step " + std::to_string(dynamics.step()) +
+                                           ", t = " + short_number(dynamics.time()) + " s"));
   }
 
   template <int dim>

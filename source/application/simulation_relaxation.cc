@@ -5,6 +5,7 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/stop_request.h>
 #include <perideal/fracture/fragments.h>
 #include <perideal/operators/correspondence_force.h>
 #include <perideal/output/summary.h>
@@ -88,6 +89,8 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::make_bond_force()
   {
+    if (parameters.checkpoints.restart)
+      open_checkpoint();
     prepare_cracks();
     find_free_motions();
     weigh_bonds();
@@ -120,10 +123,10 @@ namespace perideal
       scene.crack_tracker->start(scene.force->cut_share());
     if (parameters.comparison.fem && parameters.model.is_correspondence())
       set_up_nonlinear_fem();
+    unsigned int done = 0;
     try
       {
-        for (unsigned int number = 1; number <= parameters.solver.load_steps; ++number)
-          load_step(number, path);
+        done = take_load_steps(path);
         warn_of_lost_thickness();
         if (scene.crack_tracker)
           scene.crack_tracker->write_paths(parameters.output_directory);
@@ -133,7 +136,30 @@ namespace perideal
         finish("failed");
         throw;
       }
-    finish("done");
+    const bool reached_end = done == parameters.solver.load_steps;
+    finish(reached_end ? "done" : "stopped");
+    if (!reached_end)
+      throw ComputationError(describe_stop("load step " + std::to_string(done)));
+  }
+
+  template <int dim>
+  unsigned int Simulation<dim>::take_load_steps(EquilibriumPath<dim> &path)
+  {
+    const unsigned int last = parameters.solver.load_steps, interval = parameters.checkpoints.steps;
+    const StopRequest  stop;
+    unsigned int       number = resumed ? resumed->header.at("step").template get<unsigned int>() : 0;
+    if (resumed)
+      resume(path);
+    while (number < last)
+      {
+        load_step(++number, path);
+        const bool stops = stop.is_there(communicator);
+        if (number < last && (stops || (interval > 0 && number % interval == 0)))
+          save_checkpoint(number, path);
+        if (stops)
+          break;
+      }
+    return number;
   }
 
   template <int dim>

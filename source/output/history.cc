@@ -96,8 +96,7 @@ namespace perideal
   void History::add_series(const std::string &name, const std::vector<double> &values)
   {
     Assert(!is_finished, dealii::ExcMessage("finish() was called before"));
-    if (is_writer)
-      series[name] = values;
+    series[name] = values;
   }
 
   void History::finish()

@@ -60,6 +60,28 @@ namespace perideal
   }
 
   template <int dim>
+  void DynamicRelaxation<dim>::save(Checkpoint &checkpoint) const
+  {
+    EquilibriumPath<dim>::save(checkpoint);
+    checkpoint.put("mass", mass);
+    checkpoint.put("increment", this->increment);
+    checkpoint.header["last interval"] = last_interval;
+    checkpoint.header["broke in step"] = this->broke_in_step;
+  }
+
+  template <int dim>
+  void
+  DynamicRelaxation<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
+  {
+    EquilibriumPath<dim>::resume(checkpoint, external, time);
+    checkpoint.take("mass", mass);
+    checkpoint.take("increment", this->increment);
+    last_time           = time;
+    last_interval       = checkpoint.header.at("last interval").template get<double>();
+    this->broke_in_step = checkpoint.header.at("broke in step").template get<bool>();
+  }
+
+  template <int dim>
   void DynamicRelaxation<dim>::start_step(const double time)
   {
     if (!this->broke_in_step && last_interval > 0)

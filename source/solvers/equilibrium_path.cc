@@ -126,6 +126,34 @@ namespace perideal
   }
 
   template <int dim>
+  void EquilibriumPath<dim>::save(Checkpoint &checkpoint) const
+  {
+    checkpoint.put("displacement", displacement);
+    checkpoint.header["broken bonds"] = broken;
+    checkpoint.header["equilibrium"]  = {{"strain", budget.strain},
+                                         {"dissipated", budget.dissipated},
+                                         {"external", budget.external},
+                                         {"largest load", largest_load}};
+  }
+
+  template <int dim>
+  void
+  EquilibriumPath<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
+  {
+    const auto &state = checkpoint.header.at("equilibrium");
+    broken            = checkpoint.header.at("broken bonds").template get<GlobalIndex>();
+    budget.strain     = state.at("strain").template get<double>();
+    budget.dissipated = state.at("dissipated").template get<double>();
+    budget.external   = state.at("external").template get<double>();
+    largest_load      = state.at("largest load").template get<double>();
+    checkpoint.take("displacement", displacement);
+    if (face_values != nullptr)
+      face_values->set_time(loads, time);
+    compute_forces();
+    keep(external, force);
+  }
+
+  template <int dim>
   double EquilibriumPath<dim>::face_reaction_square() const
   {
     double result = 0;
@@ -158,31 +186,38 @@ namespace perideal
                                      const NodalVector &internal,
                                      const double       strain_energy)
   {
-    const auto &is_held = held.mask();
-    double      work    = 0;
-    for (std::size_t k = 0; k < is_held.size(); ++k)
+    double work = 0;
+    for (std::size_t k = 0; k < held.mask().size(); ++k)
       {
-        const double p       = external.local_element(k),
-                     support = is_held[k] ? -internal.local_element(k) - p : 0.;
-        const double moved   = displacement.local_element(k) - last_displacement.local_element(k);
+        const double p = external.local_element(k), support = support_at(k, external, internal);
+        const double moved = displacement.local_element(k) - last_displacement.local_element(k);
         work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
-        support_force.local_element(k) = support;
         increment.local_element(k) += moved;
       }
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
-      {
-        const dealii::Tensor<1, dim> &value = face_values->entries()[e].value;
-        work += 0.5 * ((at_faces[e] + face_support_force[e]) * (value - last_face_value[e]));
-        face_support_force[e] = at_faces[e];
-        last_face_value[e]    = value;
-      }
+      work += 0.5 * ((at_faces[e] + face_support_force[e]) *
+                     (face_values->entries()[e].value - last_face_value[e]));
     work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
     budget.external += work;
     if (broke_in_segment)
       budget.dissipated += work - (strain_energy - budget.strain);
-    budget.strain     = strain_energy;
-    broke_in_segment  = false;
+    budget.strain    = strain_energy;
+    broke_in_segment = false;
+    keep(external, internal);
+  }
+
+  template <int dim>
+  void EquilibriumPath<dim>::keep(const NodalVector &external, const NodalVector &internal)
+  {
+    for (std::size_t k = 0; k < held.mask().size(); ++k)
+      support_force.local_element(k) = support_at(k, external, internal);
+    const auto at_faces = bonds.support_forces();
+    for (std::size_t e = 0; e < at_faces.size(); ++e)
+      {
+        face_support_force[e] = at_faces[e];
+        last_face_value[e]    = face_values->entries()[e].value;
+      }
     last_displacement = displacement;
     last_external     = external;
   }

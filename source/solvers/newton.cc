@@ -73,6 +73,32 @@ namespace perideal
   }
 
   template <int dim>
+  void NewtonSolver<dim>::save(Checkpoint &checkpoint) const
+  {
+    EquilibriumPath<dim>::save(checkpoint);
+    checkpoint.header["floating nodes"] = n_anchored;
+    checkpoint.header["linear solver"]  = linear.save();
+    if (n_anchored == 0)
+      return;
+    checkpoint.put("spring stiffness", system.anchor_stiffness());
+    checkpoint.put("spring place", anchor_place);
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
+  {
+    EquilibriumPath<dim>::resume(checkpoint, external, time);
+    n_anchored = checkpoint.header.at("floating nodes").template get<GlobalIndex>();
+    linear.resume(checkpoint.header.at("linear solver"));
+    if (n_anchored == 0)
+      return;
+    std::vector<double> springs(dim * system.n_nodes());
+    checkpoint.take("spring stiffness", springs);
+    checkpoint.take("spring place", anchor_place);
+    system.set_anchors(springs);
+  }
+
+  template <int dim>
   void NewtonSolver<dim>::start_step(const double time)
   {
     held_increment = displacement;
@@ -86,6 +112,7 @@ namespace perideal
                                                displacement.get_mpi_communicator());
       }
     in_place = largest == 0.;
+    linear.start_step();
     this->set_rounding(rest_stiffness);
   }
 

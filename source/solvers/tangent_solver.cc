@@ -37,8 +37,9 @@ namespace perideal
   {
     if (parameters.assembles() || is_slow)
       {
-        is_new  = renew(solver, parameters);
-        is_slow = false;
+        is_new   = renew(solver, parameters);
+        is_first = is_first && !is_new;
+        is_slow  = false;
       }
     const NodalVector start(solution);
     solver->set_tolerance(tolerance);
@@ -66,6 +67,21 @@ namespace perideal
     is_new  = false;
     is_slow = cost > 2 * cost_when_new;
     return result;
+  }
+
+  template <int dim>
+  nlohmann::ordered_json TangentSolver<dim>::save() const
+  {
+    return {{"first", is_first}, {"new", is_new}, {"slow", is_slow}, {"cost", cost_when_new}};
+  }
+
+  template <int dim>
+  void TangentSolver<dim>::resume(const nlohmann::ordered_json &state)
+  {
+    is_first      = state.at("first").get<bool>();
+    is_new        = state.at("new").get<bool>();
+    is_slow       = state.at("slow").get<bool>();
+    cost_when_new = state.at("cost").get<double>();
   }
 
   template class TangentSolver<2>;

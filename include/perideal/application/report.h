@@ -86,6 +86,9 @@ namespace perideal
 
   /// Broken bonds and pieces; empty where nothing broke. @param unit of the time of the first break
   std::string describe_damage(const nlohmann::ordered_json &summary, const std::string &unit);
+
+  /// What a run says that was asked to stop, and how to go on. @param step the last one, with its time
+  std::string describe_stop(const std::string &step);
 } // namespace perideal
 
 #endif

@@ -150,6 +150,8 @@ namespace perideal
     void set_up_tangent();
     /// Load steps, with what they leave behind.
     void run_load_steps(EquilibriumPath<dim> &path);
+    /// Those that are left; returns the last one done, since the program may be asked to stop.
+    unsigned int take_load_steps(EquilibriumPath<dim> &path);
     /// A load step, in parts where it fails as a whole.
     void load_step(const unsigned int number, EquilibriumPath<dim> &path);
     /// Finite elements of finite strain along the same load steps. Collective.
@@ -163,6 +165,8 @@ namespace perideal
     void record_equilibrium(const unsigned int          number,
                             const EquilibriumStep      &result,
                             const EquilibriumPath<dim> &path);
+    void save_checkpoint(const unsigned int number, const EquilibriumPath<dim> &path);
+    void resume(EquilibriumPath<dim> &path);
 
     // Dynamics.
     void   run_dynamics();
@@ -183,9 +187,16 @@ namespace perideal
     /// Number and place of the fastest node of all ranks. Collective.
     std::string fastest_node(const ExplicitDynamics<dim> &dynamics) const;
     void        save_checkpoint(const ExplicitDynamics<dim> &dynamics, const double time_step);
+    void        resume(ExplicitDynamics<dim> &dynamics);
+
+    // Checkpoints, of whatever goes on in steps.
+    /// With what all steps leave: bonds, cracks, what the summary has of them.
+    Checkpoint start_checkpoint(const unsigned int step, const double time) const;
+    void       write(const Checkpoint &checkpoint);
     /// Reads the last checkpoint and holds its scene against this one.
     void open_checkpoint();
-    void resume(ExplicitDynamics<dim> &dynamics);
+    /// What start_checkpoint() left.
+    void resume_scene();
 
     const SceneParameters     &parameters;
     const RunContext           context;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +25,18 @@ namespace perideal
     /// Bonds of this rank that broke, in this order; those that the partition cuts may appear twice
     /// where another number of ranks goes on.
     std::vector<BondEnds> broken;
+
+    /// A field, from and into a vector of as many numbers.
+    template <typename Vector>
+    void put(const std::string &name, const Vector &values)
+    {
+      fields[name].assign(values.begin(), values.end());
+    }
+    template <typename Vector>
+    void take(const std::string &name, Vector &values) const
+    {
+      std::copy(fields.at(name).begin(), fields.at(name).end(), values.begin());
+    }
   };
 
   /// The nodes of this rank: owned ones first, then ghosts.

@@ -16,7 +16,7 @@ namespace perideal
    * end the same columns as one-dimensional data sets in history.h5.
    *
    * All ranks may call all functions with values that all ranks agree on; rank
-   * 0 keeps and writes them. Only the constructor communicates.
+   * 0 writes them. Only the constructor communicates.
    */
   class History
   {
@@ -43,6 +43,9 @@ namespace perideal
     /// An array besides the columns, for history.h5 alone (the residuals of a
     /// linear solve, for instance); one of the same name is replaced.
     void add_series(const std::string &name, const std::vector<double> &values);
+
+    /// All arrays so far, by name, on every rank.
+    const std::map<std::string, std::vector<double>> &all_series() const { return series; }
 
     /// Writes history.h5; nothing can be added afterwards. A '/' in a name, which
     /// HDF5 keeps for groups, is written as '|'.

@@ -45,6 +45,9 @@ namespace perideal
 
     using EquilibriumPath<dim>::displacement;
 
+    void save(Checkpoint &checkpoint) const override;
+    void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time) override;
+
   private:
     /// Of all ranks: norms of forces, and products of the motion.
     struct Sums

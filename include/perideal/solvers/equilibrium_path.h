@@ -6,6 +6,7 @@
 #include <perideal/boundary/held_nodes.h>
 #include <perideal/operators/bond_force.h>
 #include <perideal/operators/constrained_operator.h>
+#include <perideal/output/checkpoint.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <functional>
@@ -93,6 +94,12 @@ namespace perideal
     /// Goes back to the last equilibrium, for another attempt at the next; what broke stays broken.
     void restore();
 
+    /// Leaves in a checkpoint what the next step needs of the last equilibrium. Collective.
+    virtual void save(Checkpoint &checkpoint) const;
+    /// Goes on from there, with the bonds that broke until then broken. Collective.
+    /// @param external force of the loads at the time of the checkpoint [N]
+    virtual void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time);
+
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;
 
@@ -151,6 +158,15 @@ namespace perideal
   private:
     /// Judges the bonds; returns how many broke. Collective.
     GlobalIndex break_bonds(const NodalVector &external);
+    /// Force of a support [N], zero in free components.
+    double
+    support_at(const std::size_t component, const NodalVector &external, const NodalVector &internal) const
+    {
+      return held.mask()[component] ? -internal.local_element(component) - external.local_element(component) :
+                                      0.;
+    }
+    /// Keeps displacement, loads, supports and values at faces as those of the last equilibrium.
+    void keep(const NodalVector &external, const NodalVector &internal);
     /// Work and energies between the last equilibrium and this one.
     void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
 

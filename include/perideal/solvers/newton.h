@@ -64,6 +64,9 @@ namespace perideal
     /// Nodes of all ranks that springs hold.
     GlobalIndex n_floating() const override { return n_anchored; }
 
+    void save(Checkpoint &checkpoint) const override;
+    void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time) override;
+
   private:
     void                                 start_step(const double time) override;
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;

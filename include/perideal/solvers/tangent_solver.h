@@ -4,6 +4,8 @@
 
 #include <perideal/solvers/linear_solver.h>
 
+#include <nlohmann/json.hpp>
+
 #include <functional>
 #include <memory>
 #include <string>
@@ -32,6 +34,15 @@ namespace perideal
 
     std::string name() const { return solver->name(); }
 
+    /// Before a load step: a preconditioner that is not the first one is made anew, so that the step depends
+    /// on nothing but the equilibrium where it starts. A run that goes on from there knows no other.
+    void start_step() { is_slow = is_slow || !is_first; }
+
+    /// What the next step needs to know of earlier solves.
+    nlohmann::ordered_json save() const;
+    /// Goes on from there.
+    void resume(const nlohmann::ordered_json &state);
+
   private:
     /// Makes the solver for the present system; where that cannot be, one that there is stays.
     bool renew(std::unique_ptr<LinearSolver<dim>> &solver, const SolverParameters &parameters) const;
@@ -39,7 +50,8 @@ namespace perideal
     const SolverParameters             parameters;
     const Create                       create;
     std::unique_ptr<LinearSolver<dim>> solver;
-    bool                               is_new = true, is_slow = false;
+    /// Whether the solver is the one of the beginning, has not solved yet, or has become slow.
+    bool is_first = true, is_new = true, is_slow = false;
     /// Iterations a digit after the last set-up.
     double cost_when_new = 0;
   };
