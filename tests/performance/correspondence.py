@@ -23,7 +23,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1"}
 ROOT = Path(__file__).resolve().parents[2]
 FAMILY = "Material/Form=family"
 
@@ -113,7 +114,7 @@ def print_plate(arguments):
 
 
 def print_step(arguments):
-    linear = ["Material/Law=linear elastic", "Solver/Name=static"]
+    linear = ["Material/Law=linear elastic", "Solver/Name=static", "Solver/Load steps=1"]
     steps = ["Solver/Name=quasi static", f"Solver/Load steps={STEPS}"]
     times, iterations = {"static": [], "step": []}, {}
     for _ in range(arguments.repeat):
