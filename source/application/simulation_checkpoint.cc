@@ -130,9 +130,10 @@ namespace perideal
         scene.crack_tracker->resume(state);
       }
     scene.force->restore_broken(resumed->broken);
-    largest_energy    = resumed->header.at("largest energy").template get<double>();
-    summary["damage"] = resumed->header.at("damage");
-    summary["energy"] = resumed->header.at("energy");
+    largest_energy = resumed->header.at("largest energy").template get<double>();
+    for (const char *part : {"damage", "energy"})
+      if (!resumed->header.at(part).empty())
+        summary[part] = resumed->header.at(part);
   }
 
   template <int dim>
