@@ -66,6 +66,10 @@ namespace perideal
     std::vector<double> times;
     for (unsigned int k = 1; k <= number; ++k)
       times.push_back(static_cast<double>(k) / parameters.solver.load_steps);
+    // Finite elements leave no checkpoints: they take their steps again.
+    if (scene.nonlinear_fem)
+      for (const double t : times)
+        solve_nonlinear_fem(t);
     field_output->resume(times);
     resumed.reset();
   }

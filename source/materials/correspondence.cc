@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/consistent.h>
 #include <perideal/materials/correspondence.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -29,8 +30,17 @@ namespace perideal
   }
 
   template <int dim>
+  double Correspondence<dim>::penalty_modulus(const ElasticSolid<dim> &solid)
+  {
+    const ElasticConstants &nearest = solid.isotropic();
+    return solid.is_isotropic() ?
+             nearest.young_modulus :
+             2. * (1. + nearest.poisson_ratio) * Consistent<dim>::stabilising_modulus(solid);
+  }
+
+  template <int dim>
   void Correspondence<dim>::compute(const FamilyView<dim>                         &family,
-                                    const double                                   young_modulus,
+                                    const double                                   modulus,
                                     const std::function<bool(const LocalIndex k)> &is_gone,
                                     Weights                                       &weights) const
   {
@@ -61,8 +71,7 @@ namespace perideal
     const dealii::Tensor<2, dim> inverse =
       weights.has_gradient ? dealii::Tensor<2, dim>(invert(shape)) : dealii::Tensor<2, dim>();
     // beta V_i
-    const double factor =
-      whole.norm() > 0 ? family.node_volume * stabilisation * young_modulus / whole.norm() : 0.;
+    const double factor = whole.norm() > 0 ? family.node_volume * stabilisation * modulus / whole.norm() : 0.;
     for (LocalIndex k = 0; k < family.size; ++k)
       {
         weights.gradient[k] = weights.penalty[k] * (inverse * bond(k));

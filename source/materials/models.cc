@@ -204,18 +204,16 @@ namespace perideal
         .parameter("Material/Multipliers")
         .given(multipliers)
         .allowed("intact | after the cut; or set Material/Form = energy");
-    char        *end   = nullptr;
-    const double value = std::strtod(stabilisation.c_str(), &end);
-    if (stabilisation.empty() || *end != 0 || !(value >= 0) || !std::isfinite(value))
-      throw InputError("the stabilisation is not a number >= 0")
+    char        *end        = nullptr;
+    const double value      = std::strtod(stabilisation.c_str(), &end);
+    const bool   may_vanish = is_correspondence();
+    if (stabilisation.empty() || *end != 0 || !(may_vanish ? value >= 0 : value > 0) || !std::isfinite(value))
+      throw InputError("the stabilisation is out of range")
         .parameter("Material/Stabilisation")
         .given(stabilisation)
-        .allowed("automatic, or a number");
-    if (!(value > 0) && !is_correspondence())
-      throw InputError("the stabilisation is not a positive number")
-        .parameter("Material/Stabilisation")
-        .given(stabilisation)
-        .allowed("automatic, or a number > 0; without it the consistent form has modes without energy");
+        .allowed(may_vanish ?
+                   "automatic, or a number >= 0" :
+                   "automatic, or a number > 0; without it the consistent form has modes without energy");
   }
 
   std::vector<std::string> ModelParameters::own_forms() const

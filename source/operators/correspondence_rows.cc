@@ -20,8 +20,8 @@ namespace perideal
     , spans_space(families->n_owned(), true)
   {
     for (const auto id : families->material)
-      if (young_modulus.find(id) == young_modulus.end())
-        young_modulus[id] = solid_of(id).isotropic().young_modulus;
+      if (penalty_modulus.find(id) == penalty_modulus.end())
+        penalty_modulus[id] = Correspondence<dim>::penalty_modulus(solid_of(id));
 
     FamilyView<dim> view;
     for (LocalIndex i = 0; i < n_owned(); ++i)
@@ -104,7 +104,7 @@ namespace perideal
     const LocalIndex                     *j = member.data() + first[i];
     model.compute(
       view,
-      young_modulus.at(families->material[i]),
+      penalty_modulus.at(families->material[i]),
       is_gone ? std::function<bool(const LocalIndex)>([&](const LocalIndex k) { return is_gone(i, j[k]); }) :
                 nullptr,
       weights);

@@ -51,6 +51,10 @@ namespace perideal
 
     bool is_stabilised() const { return stabilisation > 0; }
 
+    /// What alpha is a multiple of [Pa]: Young's modulus; without isotropy that of the isotropic solid whose
+    /// shear modulus is Consistent::stabilising_modulus(), for the same reason.
+    static double penalty_modulus(const ElasticSolid<dim> &solid);
+
     /// What a family makes of its members.
     struct Weights
     {
@@ -63,10 +67,11 @@ namespace perideal
       bool has_gradient = true;
     };
 
-    /// Weighs a family. Its solid gives the penalty its modulus.
+    /// Weighs a family.
+    /// @param modulus penalty_modulus() of its node [Pa]
     /// @param is_gone of members by place in the view; they weigh nothing, while beta stays that of all
     void compute(const FamilyView<dim>                         &family,
-                 const double                                   young_modulus,
+                 const double                                   modulus,
                  const std::function<bool(const LocalIndex k)> &is_gone,
                  Weights                                       &weights) const;
 

@@ -147,8 +147,8 @@ namespace perideal
     std::shared_ptr<const FaceGradient<dim>> gradient;
     std::shared_ptr<const FaceValues<dim>>   prescribed;
     Correspondence<dim>                      model;
-    /// Young's modulus by material [Pa].
-    std::map<dealii::types::material_id, double> young_modulus;
+    /// By material [Pa].
+    std::map<dealii::types::material_id, double> penalty_modulus;
 
     /// Members of owned families with a weight, [first[i], first[i+1]).
     std::vector<BondIndex>              first = {0};
