@@ -62,6 +62,8 @@ WITHOUT_SCALE = (
     "reaction of bottom along x [N]",
     "reaction of left along y [N]",
     "reaction of right along y [N]",
+    "fem: reaction of left along y [N]",
+    "fem: reaction of right along y [N]",
 )
 
 
