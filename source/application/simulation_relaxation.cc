@@ -198,7 +198,7 @@ namespace perideal
         result = now;
         if (result.converged)
           time = next;
-        else if ((halvings == parameters.solver.step_halvings || !parameters.solver.is_quasi_static()))
+        else if (halvings == parameters.solver.step_halvings || !parameters.solver.is_quasi_static())
           break;
         else
           {

@@ -2,9 +2,9 @@
 #include <perideal/operators/correspondence_tangent.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include "bodies.h"
+#include "dense_matrix.h"
 
 #include <cmath>
 #include <iostream>
@@ -31,18 +31,9 @@ namespace
       nullptr,
       Correspondence<2>(InfluenceFunction(Correspondence<2>::published_influence), stabilisation),
       [solid](const dealii::types::material_id) { return solid; });
-    const LawsByMaterial<2>          laws = {{0, create_law<2>("linear elastic", solid)}};
-    const CorrespondenceTangent<2>   tangent(body.families, rows, laws);
-    dealii::LAPACKFullMatrix<double> matrix(2 * body.nodes.size());
-    tangent.assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-      for (std::size_t r = 0; r < unknowns.size(); ++r)
-        for (std::size_t c = 0; c < unknowns.size(); ++c)
-          matrix(unknowns[r], unknowns[c]) += values[r * unknowns.size() + c];
-    });
-    dealii::Vector<double>     values;
-    dealii::FullMatrix<double> vectors;
-    matrix.compute_eigenvalues_symmetric(-1., 1e30, 0., values, vectors);
-    return values;
+    const LawsByMaterial<2>        laws = {{0, create_law<2>("linear elastic", solid)}};
+    const CorrespondenceTangent<2> tangent(body.families, rows, laws);
+    return test::spectrum(tangent);
   }
 
   void print_row(const double horizon_factor, const double stabilisation)

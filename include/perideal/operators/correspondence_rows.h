@@ -45,9 +45,8 @@ namespace perideal
                        const Correspondence<dim>                      &model,
                        const SolidOf<dim>                             &solid_of);
 
-    const Families<dim> &nodes() const { return *families; }
-    LocalIndex           n_owned() const { return families->n_owned(); }
-    bool                 by_faces() const { return gradient != nullptr; }
+    LocalIndex n_owned() const { return families->n_owned(); }
+    bool       by_faces() const { return gradient != nullptr; }
 
     /// Weighs the families of owned nodes anew.
     /// @param is_gone of bonds between an owned node and another local one
@@ -213,7 +212,7 @@ namespace perideal
     const NodeRecord *u = displacements.data(), *x = positions.data();
     NodeRecord       *f = node_forces.data();
     std::fill(node_forces.begin(), node_forces.end(), NodeRecord{});
-    const bool stabilised = model.is_stabilised(), faces = by_faces();
+    const bool stabilised = model.is_stabilised(), faces = by_faces(), has_bonds = stabilised || !faces;
     for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *boundary) {
       const Gradient stress = families->volume[i] * stress_of(i, to_tensor(g));
       Lanes          t[dim] = {};
@@ -222,7 +221,7 @@ namespace perideal
           t[b][a] = stress[a][b];
       const Lanes ui = lanes(u[i]), xi = lanes(x[i]);
       Lanes       own = {};
-      for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+      for (BondIndex k = first[i]; has_bonds && k < first[i + 1]; ++k)
         {
           const LocalIndex j    = member[k];
           Lanes            pull = {};

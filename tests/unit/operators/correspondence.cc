@@ -4,9 +4,9 @@
 #include <perideal/operators/correspondence_tangent.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include "bodies.h"
+#include "dense_matrix.h"
 #include "testing.h"
 
 #include <cmath>
@@ -261,48 +261,35 @@ TEST(Correspondence, ConsistentFormMeetsUniformGradients)
 
 TEST(Correspondence, PiecesAddUpToTheTangent)
 {
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    GTEST_SKIP() << "assembles on one rank";
   for_all_bodies<2>(stretch_and_shear<2>(), [](auto &b) {
     b.displace();
     b.force->compute(b.result, b.displacement);
     b.tangent->linearise(*b.force);
     const NodalVector d = b.direction(3);
     b.tangent->vmult(b.result, d);
-    b.other = 0.;
-    b.tangent->assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-      for (std::size_t r = 0; r < unknowns.size(); ++r)
-        for (std::size_t c = 0; c < unknowns.size(); ++c)
-          b.other(unknowns[r]) += values[r * unknowns.size() + c] * d(unknowns[c]);
-    });
-    b.other -= b.result;
+    // The direction, whole on every rank.
+    dealii::Vector<double> whole(d.size()), product(d.size());
+    const GlobalIndex      first = d.get_partitioner()->local_range().first;
+    for (std::size_t k = 0; k < d.locally_owned_size(); ++k)
+      whole(first + k) = d.local_element(k);
+    dealii::Utilities::MPI::sum(whole, MPI_COMM_WORLD, whole);
+    test::dense_matrix(*b.tangent).vmult(product, whole);
+    for (std::size_t k = 0; k < d.locally_owned_size(); ++k)
+      b.other.local_element(k) = product(first + k) - b.result.local_element(k);
     EXPECT_LT(b.other.linfty_norm(), 1e-12 * b.result.linfty_norm());
   });
 }
 
 TEST(Correspondence, PenaltyLeavesRigidMotionsAlone)
 {
-  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-    GTEST_SKIP() << "assembles on one rank";
   // VNOSB fig. 2 on 24 x 24 points: the fourth eigenvalue over the largest, without the penalty and with
   // alpha = 5 E, as an independent prototype finds them.
-  const auto mesh     = test::make_box<2>({24, 24}, {1., 1.}, 0.);
-  const auto spectrum = [&](const std::string &stabilisation) {
-    CorrespondenceBody<2> b(*mesh, "family", "linear elastic", dealii::Tensor<2, 2>(), stabilisation);
-    dealii::LAPACKFullMatrix<double> matrix(b.result.size());
-    b.tangent->assemble([&](const std::vector<GlobalIndex> &unknowns, const std::vector<double> &values) {
-      for (std::size_t r = 0; r < unknowns.size(); ++r)
-        for (std::size_t c = 0; c < unknowns.size(); ++c)
-          matrix(unknowns[r], unknowns[c]) += values[r * unknowns.size() + c];
-    });
-    dealii::Vector<double>     values;
-    dealii::FullMatrix<double> vectors;
-    matrix.compute_eigenvalues_symmetric(-1., 1e30, 0., values, vectors);
-    return values;
-  };
+  const auto mesh = test::make_box<2>({24, 24}, {1., 1.}, 0.);
   for (const auto &expected : {std::make_pair("0", 1.25e-5), std::make_pair("5", 7.28e-4)})
     {
-      const auto values = spectrum(expected.first);
+      const CorrespondenceBody<2> b(
+        *mesh, "family", "linear elastic", dealii::Tensor<2, 2>(), expected.first);
+      const auto values = test::spectrum(*b.tangent);
       ASSERT_EQ(values.size(), 2 * 24 * 24u);
       const double largest = values[values.size() - 1];
       EXPECT_LT(std::abs(values[2]), 1e-12 * largest);
