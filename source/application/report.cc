@@ -75,6 +75,8 @@ namespace perideal
     result["families"]   = {{"fallback", scene.family_counts.fallback},
                             {"singular", scene.family_counts.singular},
                             {"indefinite", scene.family_counts.indefinite}};
+    if (scene.family_counts.different > 0)
+      result["families"]["different"] = scene.family_counts.different;
     if (scene.family_stiffness)
       {
         Json rows;
@@ -118,6 +120,9 @@ namespace perideal
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(scene.nodes->communicator) == 1;
     if (!can_break(parameters))
       result["bond state (nothing can break)"] = bonds;
+    const GlobalIndex different = scene.family_counts.different, families = scene.mirror->nodes().n_global;
+    if (different > 0 && different < families)
+      result["weights of families equal to others"] = families - different;
     if (parameters.solver.is_dynamic())
       {
         result["matrix, preconditioner (explicit)"] = 1;

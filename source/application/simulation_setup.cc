@@ -191,8 +191,9 @@ namespace perideal
           perideal::weigh_bonds<dim>(scene.families,
                                      *scene.model,
                                      solid_of,
-                                     parameters.model.after_the_cut() ? precrack_test() : nullptr,
-                                     parameters.model.recomputes());
+                                     {parameters.model.after_the_cut() ? precrack_test() : nullptr,
+                                      parameters.model.recomputes(),
+                                      parameters.nodes.share_equal_families});
         scene.bonds = create_bond_operator<dim>(scene.weights);
         if (parameters.model.has_surface_cure())
           scene.bonds =

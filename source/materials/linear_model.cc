@@ -11,32 +11,38 @@ namespace perideal
                                const LocalIndex                             i,
                                const std::function<bool(const LocalIndex)> &is_gone)
   {
-    member.clear();
-    volume.clear();
-    for (LocalIndex k = 0; k < families.size(i); ++k)
-      if (const LocalIndex j = families.begin(i)[k]; !is_gone || !is_gone(j))
-        if (const double counted = counted_volume(families, i, j); counted > 0)
-          {
-            member.push_back(k);
-            volume.push_back(counted);
-          }
-    size        = static_cast<LocalIndex>(member.size());
+    const LocalIndex n = families.size(i);
+    for (auto *values : {&volume, &length_square, &bond_horizon})
+      values->resize(n);
+    for (auto &component : bond)
+      component.resize(n);
+    member.resize(n);
+    size        = 0;
     node        = i;
     node_volume = families.volume[i];
     horizon     = families.horizon[i];
+    for (LocalIndex k = 0; k < n; ++k)
+      {
+        const LocalIndex j = families.begin(i)[k];
+        if (is_gone && is_gone(j))
+          continue;
+        const double counted = counted_volume(families, i, j);
+        if (!(counted > 0))
+          continue;
+        const auto xi = families.position[j] - families.position[i];
+        for (int d = 0; d < dim; ++d)
+          bond[d][size] = xi[d];
+        length_square[size] = xi.norm_square();
+        bond_horizon[size]  = std::max(horizon, families.horizon[j]);
+        volume[size]        = counted;
+        member[size]        = k;
+        ++size;
+      }
+    for (auto *values : {&volume, &length_square, &bond_horizon})
+      values->resize(size);
     for (auto &component : bond)
       component.resize(size);
-    length_square.resize(size);
-    bond_horizon.resize(size);
-    for (LocalIndex k = 0; k < size; ++k)
-      {
-        const LocalIndex j  = families.begin(i)[member[k]];
-        const auto       xi = families.position[j] - families.position[i];
-        for (int d = 0; d < dim; ++d)
-          bond[d][k] = xi[d];
-        length_square[k] = xi.norm_square();
-        bond_horizon[k]  = std::max(families.horizon[i], families.horizon[j]);
-      }
+    member.resize(size);
   }
 
   template <int dim>

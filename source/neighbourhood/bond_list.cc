@@ -55,20 +55,25 @@ namespace perideal
                         const LocalIndex *end,
                         std::vector<End> &result)
   {
-    result.clear();
+    result.resize(end - begin);
     BondIndex own = bonds.row[i];
-    for (const LocalIndex *j = begin; j != end; ++j)
-      // Row j lists i after all lower numbers, which were visited before.
-      result.push_back(*j < i ? End{next[*j]++, false} : End{own++, true});
+    for (End &place : result)
+      {
+        // Row j lists i after all lower numbers, which were visited before.
+        const LocalIndex j = *begin++;
+        place              = j < i ? End{next[j]++, false} : End{own++, true};
+      }
   }
 
   template <int dim>
   void exchange_cut_bonds(const Families<dim>               &families,
                           const BondList                    &bonds,
                           const std::vector<const double *> &near,
-                          const std::vector<double *>       &far)
+                          const std::vector<double *>       &far,
+                          const std::vector<LocalIndex>     &place)
   {
     const LocalIndex n_owned = families.n_owned();
+    const auto       at = [&](const BondIndex slot) { return place.empty() ? slot : BondIndex(place[slot]); };
     if (dealii::Utilities::MPI::n_mpi_processes(families.communicator) == 1)
       return;
 
@@ -84,7 +89,7 @@ namespace perideal
             slots_of_ghost[ghost].push_back(slot);
             auto &message = outbox[families.ghost_owner[ghost]];
             for (const double *values : near)
-              message.push_back(values[slot]);
+              message.push_back(values[at(slot)]);
           }
 
     const auto inbox = dealii::Utilities::MPI::some_to_some(families.communicator, outbox);
@@ -96,7 +101,7 @@ namespace perideal
         const double *&value = position[families.ghost_owner[ghost]];
         for (const BondIndex slot : slots_of_ghost[ghost])
           for (double *values : far)
-            values[slot] = *value++;
+            values[at(slot)] = *value++;
       }
   }
 
@@ -105,9 +110,11 @@ namespace perideal
   template void exchange_cut_bonds(const Families<2> &,
                                    const BondList &,
                                    const std::vector<const double *> &,
-                                   const std::vector<double *> &);
+                                   const std::vector<double *> &,
+                                   const std::vector<LocalIndex> &);
   template void exchange_cut_bonds(const Families<3> &,
                                    const BondList &,
                                    const std::vector<const double *> &,
-                                   const std::vector<double *> &);
+                                   const std::vector<double *> &,
+                                   const std::vector<LocalIndex> &);
 } // namespace perideal

@@ -74,6 +74,11 @@ namespace perideal
                       "that are long in one direction (consistent form only); automatic: cell for the "
                       "consistent form where the mean aspect ratio of the cells is above 3, else sphere",
                       dealii::Patterns::Selection("automatic|sphere|cell"));
+    prm.add_parameter("Share equal families",
+                      share_equal_families,
+                      "Whether families that are equal but for rounding, as in structured parts of a mesh, "
+                      "are weighed once and keep their weights once, where many are; false weighs each: for "
+                      "comparisons of time and memory");
     prm.add_parameter(
       "Perturbation",
       perturbation,

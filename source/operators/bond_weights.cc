@@ -7,16 +7,14 @@
 namespace perideal
 {
   template <int dim>
-  void BondWeights<dim>::visit_families(LinearModel<dim>         &model,
-                                        const SolidOf<dim>       &solid_of,
+  void BondWeights<dim>::visit_families(const SolidOf<dim>       &solid_of,
                                         const BondPredicate<dim> &is_cut,
-                                        const StoreFamily        &store)
+                                        const VisitFamily        &visit)
   {
     reports.resize(families->n_owned());
     BondCursor                   cursor(bonds);
     std::vector<BondCursor::End> ends;
     FamilyView<dim>              view;
-    FamilyCoefficients           coefficients;
     dealii::types::material_id   material = dealii::numbers::invalid_material_id;
     unsigned int                 n_empty  = 0;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
@@ -33,17 +31,25 @@ namespace perideal
             material = families->material[i];
             view.set_solid(solid_of(material));
           }
-        coefficients.resize(view.size, shape);
-        model.compute(view, coefficients);
-        reports[i] = coefficients.report;
         cursor.find(i, families->begin(i), families->end(i), ends);
-        store(i, coefficients, view.member, ends);
+        visit(view, ends);
       }
     n_empty = dealii::Utilities::MPI::sum(n_empty, families->communicator);
     if (n_empty > 0)
       throw InputError("the horizons of " + std::to_string(n_empty) + " nodes hold no part of a neighbour")
         .parameter("Nodes/Horizon factor")
         .hint("enlarge the factor, or set Quadrature/Scheme = partial volume");
+  }
+
+  template <int dim>
+  void BondWeights<dim>::weigh(LinearModel<dim>      &model,
+                               const FamilyView<dim> &family,
+                               FamilyCoefficients    &coefficients)
+  {
+    coefficients.resize(family.size, shape);
+    model.compute(family, coefficients);
+    reports[family.node] = coefficients.report;
+    ++n_weighed;
   }
 
   template <int dim>
@@ -56,7 +62,8 @@ namespace perideal
         counts.singular += report.singular;
         counts.indefinite += report.indefinite;
       }
-    for (GlobalIndex *count : {&counts.fallback, &counts.singular, &counts.indefinite})
+    counts.different = n_weighed;
+    for (GlobalIndex *count : {&counts.fallback, &counts.singular, &counts.indefinite, &counts.different})
       *count = dealii::Utilities::MPI::sum(*count, families->communicator);
   }
 

@@ -18,6 +18,54 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  template <bool shared, bool for_forces>
+  PERIDEAL_INLINE void
+  FamilyOperator<dim, n_sums, own_force_weights, deformed>::load_weights(FourBonds      &bonds,
+                                                                         const BondIndex k) const
+  {
+    constexpr bool stiffness_in_record = n_sums == 1 && !own_force_weights;
+    if constexpr (shared)
+      {
+        const LocalIndex *kind = weights->kind.data() + k;
+        if constexpr (n_sums > 0)
+          {
+            const NodeRecord *record     = kinds.data();
+            const Lanes       records[4] = {
+                    lanes(record[kind[0]]), lanes(record[kind[1]]), lanes(record[kind[2]]), lanes(record[kind[3]])};
+            Lanes value[4];
+            transpose(records, value);
+            constexpr int first = own_force_weights && for_forces ? 2 : 0;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                bonds.near[a] = value[first + 2 * a];
+                bonds.far[a]  = value[first + 2 * a + 1];
+              }
+            if constexpr (stiffness_in_record)
+              bonds.stiffness = value[2];
+          }
+        if constexpr (for_forces && !deformed && !stiffness_in_record)
+          {
+            const double *s = weights->stiffness.data();
+            bonds.stiffness = Lanes{s[kind[0]], s[kind[1]], s[kind[2]], s[kind[3]]};
+          }
+      }
+    else
+      {
+        const auto &ends = for_forces ? weights->force_weights() : weights->sum_weight;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            load(bonds.near[a], ends[a].near.data() + k);
+            load(bonds.far[a], ends[a].far.data() + k);
+          }
+        if constexpr (for_forces && !deformed)
+          load(bonds.stiffness, weights->stiffness.data() + k);
+      }
+    if constexpr (for_forces && deformed)
+      load(bonds.stiffness, deformation.stiffness.data() + k);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  template <bool shared>
   void FamilyOperator<dim, n_sums, own_force_weights, deformed>::sum_over_families() const
   {
     for (unsigned int a = 0; a < n_sums; ++a)
@@ -44,14 +92,13 @@ namespace perideal
                 load(scale, deformation.scale.data() + k);
                 extension *= scale;
               }
+            FourBonds bonds;
+            load_weights<shared, false>(bonds, k);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                Lanes near, far;
-                load(near, weights->sum_weight[a].near.data() + k);
-                load(far, weights->sum_weight[a].far.data() + k);
-                own[a] += near * extension;
-                far *= extension;
-                double *sum = sums[a].data();
+                own[a] += bonds.near[a] * extension;
+                const Lanes far = bonds.far[a] * extension;
+                double     *sum = sums[a].data();
                 for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
                   sum[j[lane]] += far[lane];
               }
@@ -72,12 +119,12 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  template <bool shared>
   void FamilyOperator<dim, n_sums, own_force_weights, deformed>::sum_forces() const
   {
     const LocalIndex *neighbour = weights->bonds.neighbour.data();
     const NodeRecord *x = positions.data(), *u = displacements.data();
-    NodeRecord       *f            = forces.data();
-    const auto       &pull_weights = weights->force_weights();
+    NodeRecord       *f = forces.data();
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
     for (LocalIndex i = 0; i < weights->bonds.n_rows(); ++i)
@@ -91,7 +138,7 @@ namespace perideal
             const Lanes bond[4] = {
               lanes(x[j[0]]) - xi, lanes(x[j[1]]) - xi, lanes(x[j[2]]) - xi, lanes(x[j[3]]) - xi};
             const Lanes uj[4] = {lanes(u[j[0]]), lanes(u[j[1]]), lanes(u[j[2]]), lanes(u[j[3]])};
-            Lanes       extension, magnitude;
+            Lanes       extension;
             sum_of_each(extension,
                         bond[0] * (uj[0] - ui),
                         bond[1] * (uj[1] - ui),
@@ -102,24 +149,20 @@ namespace perideal
               {
                 load(scale, deformation.scale.data() + k);
                 load(tension, deformation.tension.data() + k);
-                load(magnitude, deformation.stiffness.data() + k);
                 extension *= scale;
               }
-            else
-              load(magnitude, weights->stiffness.data() + k);
-            magnitude *= extension;
+            FourBonds bonds;
+            load_weights<shared, true>(bonds, k);
+            Lanes magnitude = bonds.stiffness * extension;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                Lanes near, far;
-                load(near, pull_weights[a].near.data() + k);
-                load(far, pull_weights[a].far.data() + k);
                 const double *s         = state[a].data();
                 const Lanes   far_state = dim + a < 4 ? Lanes{uj[0][(dim + a) % 4],
                                                             uj[1][(dim + a) % 4],
                                                             uj[2][(dim + a) % 4],
                                                             uj[3][(dim + a) % 4]} :
                                                         Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
-                magnitude += near * s[i] + far * far_state;
+                magnitude += bonds.near[a] * s[i] + bonds.far[a] * far_state;
               }
             if constexpr (deformed)
               magnitude *= scale;
@@ -137,16 +180,26 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
-  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::vmult(NodalVector       &force,
-                                                                       const NodalVector &displacement) const
+  template <bool shared>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::apply(const NodalVector &displacement) const
   {
     import_displacement(displacement);
     if constexpr (n_sums > 0)
       {
-        sum_over_families();
+        sum_over_families<shared>();
         turn_sums_into_states();
       }
-    sum_forces();
+    sum_forces<shared>();
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
+  void FamilyOperator<dim, n_sums, own_force_weights, deformed>::vmult(NodalVector       &force,
+                                                                       const NodalVector &displacement) const
+  {
+    if (weights->kind.empty())
+      apply<false>(displacement);
+    else
+      apply<true>(displacement);
     // Bonds pull node i along +xi when stretched; K u resists with the opposite sign.
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)

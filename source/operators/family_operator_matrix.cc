@@ -23,17 +23,18 @@ namespace perideal
           if (j == i)
             continue;
           const auto                 xi = bond_vector(i, j, k);
+          const BondIndex            at = weights->at(k);
           std::array<double, n_sums> near_sum, far_sum;
           for (unsigned int a = 0; a < n_sums; ++a)
             {
-              near_sum[a] = weights->sum_weight[a].near[k];
-              far_sum[a]  = weights->sum_weight[a].far[k];
+              near_sum[a] = weights->sum_weight[a].near[at];
+              far_sum[a]  = weights->sum_weight[a].far[at];
               own_sum[i][a] += near_sum[a] * xi;
-              own_force[i][a] += weights->force_weights()[a].near[k] * xi;
+              own_force[i][a] += weights->force_weights()[a].near[at] * xi;
               if (j < n_owned)
                 {
                   own_sum[j][a] -= far_sum[a] * xi;
-                  own_force[j][a] -= weights->force_weights()[a].far[k] * xi;
+                  own_force[j][a] -= weights->force_weights()[a].far[at] * xi;
                 }
             }
           // The neighbour's family moves with this node, and the other way round.
@@ -41,8 +42,8 @@ namespace perideal
           const auto far_states = weights->states(j, far_sum), near_states = weights->states(i, near_sum);
           for (unsigned int a = 0; a < n_sums; ++a)
             {
-              of_i += weights->force_weights()[a].far[k] * far_states[a];
-              of_j += weights->force_weights()[a].near[k] * near_states[a];
+              of_i += weights->force_weights()[a].far[at] * far_states[a];
+              of_j += weights->force_weights()[a].near[at] * near_states[a];
             }
           const auto             square = outer_product(xi, xi);
           dealii::Tensor<2, dim> across;
@@ -89,10 +90,11 @@ namespace perideal
           unknowns[d] = dim * families->global_number(i) + d;
         for (std::size_t m = 0; m < ends.size(); ++m)
           {
-            const LocalIndex      j   = families->begin(i)[m];
-            const BondCursor::End end = ends[m];
-            const auto            xi  = bond_vector(i, j, end.slot);
-            const std::size_t     at  = dim * (m + 1);
+            const LocalIndex      j       = families->begin(i)[m];
+            const BondCursor::End end     = ends[m];
+            const auto            xi      = bond_vector(i, j, end.slot);
+            const BondIndex       of_bond = weights->at(end.slot);
+            const std::size_t     at      = dim * (m + 1);
             for (int d = 0; d < dim; ++d)
               unknowns[at + d] = dim * families->global_number(j) + d;
             for (unsigned int a = 0; a < n_sums; ++a)
@@ -100,8 +102,8 @@ namespace perideal
                 {
                   const auto  &s = weights->sum_weight[a];
                   const auto  &p = weights->force_weights()[a];
-                  const double g = (end.is_near ? s.near : s.far)[end.slot] * xi[d];
-                  const double f = (end.is_near ? p.near : p.far)[end.slot] * xi[d];
+                  const double g = (end.is_near ? s.near : s.far)[of_bond] * xi[d];
+                  const double f = (end.is_near ? p.near : p.far)[of_bond] * xi[d];
                   sum_row[a][at + d] += g;
                   sum_row[a][d] -= g;
                   force_row[a][at + d] += f;
@@ -149,8 +151,8 @@ namespace perideal
             eta[d] = displacements[j].value[d] - displacements[i].value[d];
           double magnitude = stiffness(k) * (xi * eta);
           for (unsigned int a = 0; a < n_sums; ++a)
-            magnitude += weights->force_weights()[a].near[k] * state[a][i] +
-                         weights->force_weights()[a].far[k] * state[a][j];
+            magnitude += weights->force_weights()[a].near[weights->at(k)] * state[a][i] +
+                         weights->force_weights()[a].far[weights->at(k)] * state[a][j];
           dealii::Tensor<1, dim> force = magnitude * xi;
           if constexpr (deformed)
             force += deformation.tension[k] * eta;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/equal_families.h>
 #include <perideal/operators/family_weights.h>
 #include <perideal/operators/tensor_weights.h>
 
@@ -11,21 +12,23 @@ namespace perideal
     const std::shared_ptr<const Families<dim>> &families,
     LinearModel<dim>                           &model,
     const SolidOf<dim>                         &solid_of,
-    const BondPredicate<dim>                   &is_cut,
-    const bool                                  will_change)
+    const Weighing<dim>                        &how)
     : BondWeights<dim>(families, model)
-    , will_change(will_change)
+    , will_change(how.will_change)
   {
-    weigh_families(model, solid_of, is_cut);
+    map.entries.resize(n_sums > 0 ? families->n_local() : 0);
+    energy.assign(own_force_weights ? families->n_owned() : 0, 0.);
+    if (how.share_equal_families && !how.is_cut && !how.will_change && !model.depends_on_node() &&
+        EqualFamilies<dim>::are_many(*families))
+      weigh_different_families(model, solid_of);
+    else
+      weigh_families(model, solid_of, how.is_cut);
+    join_ends();
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(LinearModel<dim>         &model,
-                                                                     const SolidOf<dim>       &solid_of,
-                                                                     const BondPredicate<dim> &is_cut)
+  void FamilyWeights<dim, n_sums, own_force_weights>::make_room(const BondIndex n)
   {
-    const Families<dim> &families = *this->families;
-    const BondIndex      n        = this->bonds.n_slots();
     end_stiffness.near.assign(n, 0.);
     end_stiffness.far.assign(n, 0.);
     for (Sums *weights : {&sum_weight, &force_weight})
@@ -35,18 +38,96 @@ namespace perideal
             ends.near.assign(n, 0.);
             ends.far.assign(n, 0.);
           }
-    map.entries.resize(n_sums > 0 ? families.n_local() : 0);
-    energy.assign(own_force_weights ? families.n_owned() : 0, 0.);
+  }
 
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_families(LinearModel<dim>         &model,
+                                                                     const SolidOf<dim>       &solid_of,
+                                                                     const BondPredicate<dim> &is_cut)
+  {
+    make_room(this->bonds.n_slots());
+    FamilyCoefficients coefficients;
     this->visit_families(
-      model,
-      solid_of,
-      is_cut,
-      [this](const LocalIndex                    i,
-             const FamilyCoefficients           &coefficients,
-             const std::vector<LocalIndex>      &member,
-             const std::vector<BondCursor::End> &ends) { store(i, coefficients, member, ends); });
-    join_ends();
+      solid_of, is_cut, [&](const FamilyView<dim> &family, const std::vector<BondCursor::End> &ends) {
+        this->weigh(model, family, coefficients);
+        store(family.node, coefficients, family.member, ends);
+      });
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyWeights<dim, n_sums, own_force_weights>::weigh_different_families(LinearModel<dim>   &model,
+                                                                               const SolidOf<dim> &solid_of)
+  {
+    const Families<dim> &families = *this->families;
+    EqualFamilies<dim>   equal(families);
+    BondKinds            kinds;
+    // What the different families make of their members, by code; and the first node with each of them.
+    std::array<std::vector<double>, n_sums> sums, forces;
+    std::vector<double>                     stiffnesses = {0.};
+    for (unsigned int a = 0; a < n_sums; ++a)
+      sums[a] = forces[a] = {0.};
+    std::vector<LocalIndex> first, codes;
+    FamilyCoefficients      coefficients;
+    const auto              append = [](std::vector<double> &values, const std::vector<double> &more) {
+      values.insert(values.end(), more.begin(), more.end());
+    };
+
+    // Until the far end of a bond is visited, its slot holds the code of the near one.
+    kind.assign(this->bonds.n_slots(), 0);
+    this->visit_families(
+      solid_of, {}, [&](const FamilyView<dim> &family, const std::vector<BondCursor::End> &ends) {
+        const LocalIndex i     = family.node;
+        const auto       match = equal.find(family, families.material[i], codes);
+        if (match.is_new)
+          {
+            this->weigh(model, family, coefficients);
+            first.push_back(i);
+            append(stiffnesses, coefficients.stiffness);
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                append(sums[a], coefficients.sum[a]);
+                append(forces[a], coefficients.force_weight[a]);
+              }
+            if constexpr (n_sums > 0)
+              map.entries[i] = coefficients.map;
+            if constexpr (own_force_weights)
+              energy[i] = coefficients.energy;
+          }
+        const LocalIndex like = first[match.number];
+        this->reports[i]      = this->reports[like];
+        if constexpr (n_sums > 0)
+          map.entries[i] = map.entries[like];
+        if constexpr (own_force_weights)
+          energy[i] = energy[like];
+        LocalIndex k = 0;
+        for (std::size_t m = 0; m < ends.size(); ++m)
+          {
+            const bool       is_there = k < family.size && family.member[k] == m;
+            const LocalIndex code     = is_there ? codes[k++] : 0;
+            LocalIndex      &at       = kind[ends[m].slot];
+            at                        = ends[m].is_near ? code : kinds.of(at, code);
+          }
+      });
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      for (BondIndex slot = this->bonds.row[i]; slot < this->bonds.row[i + 1]; ++slot)
+        if (this->bonds.neighbour[slot] >= families.n_owned())
+          kind[slot] = kinds.of_cut_bond(kind[slot]);
+
+    make_room(kinds.ends.size());
+    const auto spread = [&](const std::vector<double> &values, Ends &ends) {
+      for (std::size_t k = 0; k < kinds.ends.size(); ++k)
+        {
+          ends.near[k] = values[kinds.ends[k].first];
+          ends.far[k]  = values[kinds.ends[k].second];
+        }
+    };
+    spread(stiffnesses, end_stiffness);
+    for (unsigned int a = 0; a < n_sums; ++a)
+      {
+        spread(sums[a], sum_weight[a]);
+        if constexpr (own_force_weights)
+          spread(forces[a], force_weight[a]);
+      }
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -88,10 +169,10 @@ namespace perideal
             near.push_back(end_values.near.data());
             far.push_back(end_values.far.data());
           }
-    exchange_cut_bonds(families, this->bonds, near, far);
-    stiffness.resize(this->bonds.n_slots());
-    for (BondIndex slot = 0; slot < stiffness.size(); ++slot)
-      stiffness[slot] = end_stiffness.near[slot] + end_stiffness.far[slot];
+    exchange_cut_bonds(families, this->bonds, near, far, kind);
+    stiffness.resize(end_stiffness.near.size());
+    for (std::size_t k = 0; k < stiffness.size(); ++k)
+      stiffness[k] = end_stiffness.near[k] + end_stiffness.far[k];
     if (!will_change)
       end_stiffness = Ends();
 
@@ -157,16 +238,14 @@ namespace perideal
   std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &families,
                                                 LinearModel<dim>                           &model,
                                                 const SolidOf<dim>                         &solid_of,
-                                                const BondPredicate<dim>                   &is_cut,
-                                                const bool                                  will_change)
+                                                const Weighing<dim>                        &how)
   {
     if (model.shape().bond_tensors)
-      return std::make_shared<TensorWeights<dim>>(families, model, solid_of, is_cut);
-    return visit_family_shape(model.shape(),
-                              [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
-                                return std::make_shared<FamilyWeights<dim, n_sums, own>>(
-                                  families, model, solid_of, is_cut, will_change);
-                              });
+      return std::make_shared<TensorWeights<dim>>(families, model, solid_of, how.is_cut);
+    return visit_family_shape(
+      model.shape(), [&](const auto n_sums, const auto own) -> std::shared_ptr<BondWeights<dim>> {
+        return std::make_shared<FamilyWeights<dim, n_sums, own>>(families, model, solid_of, how);
+      });
   }
 
 #define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
@@ -178,8 +257,7 @@ namespace perideal
   template std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &,       \
                                                          LinearModel<dim> &,                                 \
                                                          const SolidOf<dim> &,                               \
-                                                         const BondPredicate<dim> &,                         \
-                                                         const bool);
+                                                         const Weighing<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

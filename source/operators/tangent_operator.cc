@@ -21,7 +21,9 @@ namespace perideal
         : Loops(from)
       {
         deformation.scale.assign(weights->bonds.n_slots(), 1.);
-        deformation.stiffness = weights->stiffness;
+        deformation.stiffness.resize(weights->bonds.n_slots());
+        for (BondIndex slot = 0; slot < weights->bonds.n_slots(); ++slot)
+          deformation.stiffness[slot] = weights->stiffness[weights->at(slot)];
         deformation.tension.assign(weights->bonds.n_slots(), 0.);
       }
 
@@ -61,7 +63,7 @@ namespace perideal
         const double tension        = (pull * bond) / now;
         deformation.scale[slot]     = std::sqrt(rest / now);
         deformation.tension[slot]   = tension;
-        deformation.stiffness[slot] = weights->stiffness[slot] - tension / rest;
+        deformation.stiffness[slot] = weights->stiffness[weights->at(slot)] - tension / rest;
       }
     };
 

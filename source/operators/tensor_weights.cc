@@ -12,17 +12,14 @@ namespace perideal
   {
     for (auto &values : this->component)
       values.assign(this->bonds.n_slots(), 0.);
-    this->visit_families(model,
-                         solid_of,
-                         is_cut,
-                         [this](const LocalIndex,
-                                const FamilyCoefficients           &coefficients,
-                                const std::vector<LocalIndex>      &member,
-                                const std::vector<BondCursor::End> &ends) {
-                           for (std::size_t k = 0; k < member.size(); ++k)
-                             for (unsigned int p = 0; p < this->n_components; ++p)
-                               this->component[p][ends[member[k]].slot] += coefficients.tensor[p][k];
-                         });
+    FamilyCoefficients coefficients;
+    this->visit_families(
+      solid_of, is_cut, [&](const FamilyView<dim> &family, const std::vector<BondCursor::End> &ends) {
+        this->weigh(model, family, coefficients);
+        for (LocalIndex k = 0; k < family.size; ++k)
+          for (unsigned int p = 0; p < this->n_components; ++p)
+            this->component[p][ends[family.member[k]].slot] += coefficients.tensor[p][k];
+      });
     add_far_ends();
     this->count_reports();
   }

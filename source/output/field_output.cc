@@ -114,7 +114,7 @@ namespace perideal
     dealii::DataOutBase::VtkFlags flags(time, step);
     // Equal runs leave equal files.
     flags.print_date_and_time = false;
-    flags.compression_level   = dealii::DataOutBase::VtkFlags::default_compression;
+    flags.compression_level   = dealii::DataOutBase::VtkFlags::best_speed;
     data_out.set_flags(flags);
 
     data_out.attach_triangulation(triangulation);

@@ -11,20 +11,19 @@ The bytes a node are those of families, bonds and contact while steps are taken,
 """
 
 import argparse
-import json
 import os
 import re
 import shlex
 import statistics
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-CASES = [
+from runs import ENVIRONMENT, add_arguments, run
+
+SCENE = "tests/performance/dynamics.prm"
+LAMMPS_INPUT = Path(__file__).resolve().parent / "peridynamic_block.lammps"
+CASES = [  # name, settings, style of LAMMPS
     ("bond based", ["Material/Model=bond based"], "pmb"),
     ("ordinary", ["Material/Model=ordinary"], "lps"),
     ("paper form", ["Material/Form=paper"], None),
@@ -33,75 +32,54 @@ CASES = [
 ]
 
 
-def run(command, directory):
-    result = subprocess.run(
-        command, cwd=directory, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False
-    )
-    if result.returncode != 0:
-        sys.exit(f"{shlex.join(command)}\n{result.stdout[-2000:]}{result.stderr[-2000:]}")
-    return result.stdout
+def block(size, steps, step=1e-8):
+    """Settings of a cube with so many nodes along an edge, a millimetre each."""
+    return [f"Mesh/Cells={size}, {size}, {size}", f"Mesh/Size={size * 1e-3}, {size * 1e-3}, {size * 1e-3}",
+            f"Solver/Time step={step}", f"Solver/End time={step * steps}", f"Output/History steps={steps}"]
 
 
-def launcher(arguments):
-    return shlex.split(arguments.mpirun) + ["-n", str(arguments.ranks)] if arguments.ranks > 1 else []
+def run_perideal(options, settings):
+    """The summary of one run."""
+    return run(options, SCENE, [*settings, *block(options.size, options.steps)]).summary
 
 
-def run_perideal(arguments, overrides, directory):
-    command = launcher(arguments) + [arguments.program, str(HERE / "dynamics.prm")]
-    size = arguments.size
-    step = 1e-8
-    for override in overrides + [
-        f"Mesh/Cells={size}, {size}, {size}",
-        f"Mesh/Size={size * 1e-3}, {size * 1e-3}, {size * 1e-3}",
-        f"Solver/Time step={step}",
-        f"Solver/End time={step * arguments.steps}",
-        f"Output/History steps={arguments.steps}",
-    ]:
-        command += ["--set", override]
-    run(command, directory)
-    summary = json.loads((Path(directory) / "output" / "summary.json").read_text(encoding="utf-8"))
-    # The forces of the last time are computed too.
-    bonds = summary["bonds"] * (summary["solver"]["steps"] + 1)
-    return bonds / summary["seconds"]["solve"], summary["bonds"], summary["operator_bytes"] / summary["nodes"]
+def speed(summary):
+    """Bonds times steps a second; the forces of the last time are computed too."""
+    return summary["bonds"] * (summary["solver"]["steps"] + 1) / summary["seconds"]["solve"]
 
 
-def run_lammps(arguments, style, bonds, directory):
-    command = launcher(arguments) + [arguments.lammps, "-in", str(HERE / "peridynamic_block.lammps"), "-log", "none"]
-    for name, value in (("n", arguments.size), ("steps", arguments.steps), ("style", style)):
+def run_lammps(options, style, bonds):
+    """Bonds times steps a second of LAMMPS."""
+    command = shlex.split(options.mpirun) + ["-n", str(options.ranks)] if options.ranks > 1 else []
+    command += [options.lammps, "-in", str(LAMMPS_INPUT), "-log", "none"]
+    for name, value in (("n", options.size), ("steps", options.steps), ("style", style)):
         command += ["-var", name, str(value)]
-    text = run(command, directory)
-    seconds = float(re.search(r"Loop time of ([0-9.e+-]+)", text).group(1))
-    return bonds * arguments.steps / seconds
+    done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{shlex.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return bonds * options.steps / float(re.search(r"Loop time of ([0-9.e+-]+)", done.stdout).group(1))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True, type=lambda path: str(Path(path).resolve()))
+    add_arguments(parser)
     parser.add_argument("--size", type=int, default=60, help="nodes along an edge")
     parser.add_argument("--steps", type=int, default=20)
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--lammps", default="lmp", help="the program of LAMMPS; an empty text leaves it out")
-    parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
-    arguments = parser.parse_args()
+    options = parser.parse_args()
     print("| model | million bonds/s | LAMMPS | ratio | bytes a node | without failure |\n|---|--:|--:|--:|--:|--:|")
-    for name, overrides, style in CASES:
-        ours, theirs, memory = [], [], 0
-        for _ in range(arguments.repeat):
-            with tempfile.TemporaryDirectory() as directory:
-                speed, bonds, memory = run_perideal(arguments, overrides, directory)
-                ours.append(speed)
-                if style and arguments.lammps:
-                    theirs.append(run_lammps(arguments, style, bonds, directory))
-        with tempfile.TemporaryDirectory() as directory:
-            memory_intact = run_perideal(arguments, overrides + ["Material/Critical stretch=0"], directory)[2]
-        speed = statistics.median(ours)
-        other = statistics.median(theirs) if theirs else None
-        print(
-            f"| {name} | {speed / 1e6:.0f} | {f'{other / 1e6:.1f}' if other else ''} | "
-            f"{f'{speed / other:.1f}' if other else ''} | {memory:.0f} | {memory_intact:.0f} |",
-            flush=True,
-        )
+    for name, settings, style in CASES:
+        ours, theirs, summary = [], [], {}
+        for _ in range(options.repeat):
+            summary = run_perideal(options, settings)
+            ours.append(speed(summary))
+            if style and options.lammps:
+                theirs.append(run_lammps(options, style, summary["bonds"]))
+        intact = run_perideal(options, [*settings, "Material/Critical stretch=0"])
+        memory, memory_intact = (each["operator_bytes"] / each["nodes"] for each in (summary, intact))
+        own, other = statistics.median(ours), statistics.median(theirs) if theirs else None
+        print(f"| {name} | {own / 1e6:.0f} | {f'{other / 1e6:.1f}' if other else ''} | "
+              f"{f'{own / other:.1f}' if other else ''} | {memory:.0f} | {memory_intact:.0f} |", flush=True)
 
 
 if __name__ == "__main__":

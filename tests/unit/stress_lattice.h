@@ -105,7 +105,7 @@ namespace perideal::test
         families,
         model,
         [](const dealii::types::material_id) { return InfiniteBody::solid(2. * InfiniteBody::young); },
-        [](const dealii::Point<3> &, const dealii::Point<3> &) { return false; }));
+        {[](const dealii::Point<3> &, const dealii::Point<3> &) { return false; }}));
     }
 
     /// Of the first node [Pa].

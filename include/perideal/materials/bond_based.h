@@ -27,6 +27,7 @@ namespace perideal
 
     FamilyShape    shape() const override { return {0, false}; }
     bool           is_symmetric() const override { return true; }
+    bool           depends_on_node() const override { return !stiffening.empty(); }
     void           compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
     PairForce<dim> pair_force(const ElasticSolid<dim>                    &solid,
                               const double                                horizon,

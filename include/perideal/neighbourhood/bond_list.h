@@ -74,12 +74,14 @@ namespace perideal
    * Values that each rank computed for the near ends of its cut bonds are sent
    * to where they are the far ends. @p near and @p far are n_values arrays by
    * slot; far is written at slots that lead to ghosts. Collective.
+   * @param place where the values of each slot stand in the arrays; empty: by slot
    */
   template <int dim>
   void exchange_cut_bonds(const Families<dim>               &families,
                           const BondList                    &bonds,
                           const std::vector<const double *> &near,
-                          const std::vector<double *>       &far);
+                          const std::vector<double *>       &far,
+                          const std::vector<LocalIndex>     &place = {});
 } // namespace perideal
 
 #endif

@@ -22,6 +22,8 @@ namespace perideal
     std::string horizon_shape = "automatic";
     /// How far nodes lie off the centroids, over the edges of their cells: at most half of this [-].
     double perturbation = 0.;
+    /// Whether the weights of families that are equal are made and kept once.
+    bool share_equal_families = true;
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError when the factor cannot make families, or a perturbation takes nodes out of cells.

@@ -13,10 +13,25 @@
 
 namespace perideal
 {
-  /// Number of families of all ranks by what became of their weights.
+  /// Number of families of all ranks by what became of their weights, and of those that were weighed: all but
+  /// those equal to another on their rank.
   struct FamilyCounts
   {
-    GlobalIndex fallback = 0, singular = 0, indefinite = 0;
+    GlobalIndex fallback = 0, singular = 0, indefinite = 0, different = 0;
+  };
+
+  /// How bonds are weighed.
+  template <int dim>
+  struct Weighing
+  {
+    /// Bonds that are there no more: they get no weights and the families are weighed without them; empty:
+    /// none.
+    BondPredicate<dim> is_cut = {};
+    /// Whether there will be a reweigh().
+    bool will_change = false;
+    /// Whether families that are equal are weighed once and keep their weights together, where many are; not
+    /// where bonds are cut or weights will change.
+    bool share_equal_families = true;
   };
 
   /**
@@ -55,19 +70,20 @@ namespace perideal
     {
     }
 
-    /// Receives what a model made of a family, and where its weights go.
-    /// @param member the ends of the bonds that the coefficients belong to
-    using StoreFamily = std::function<void(const LocalIndex                    i,
-                                           const FamilyCoefficients           &coefficients,
-                                           const std::vector<LocalIndex>      &member,
-                                           const std::vector<BondCursor::End> &ends)>;
+    /// Receives a family with its solid, and where the weights of its neighbours go.
+    using VisitFamily =
+      std::function<void(const FamilyView<dim> &family, const std::vector<BondCursor::End> &ends)>;
 
-    /// Lets the model look at every family of this rank without the bonds that are cut. Fills the reports.
+    /// Visits every family of this rank without the bonds that are cut.
     /// @throws InputError on all ranks where whole families count nothing of their members. Collective.
-    void visit_families(LinearModel<dim>         &model,
-                        const SolidOf<dim>       &solid_of,
-                        const BondPredicate<dim> &is_cut,
-                        const StoreFamily        &store);
+    void
+    visit_families(const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut, const VisitFamily &visit);
+
+    /// Lets the model look at a family, and keeps its report.
+    void weigh(LinearModel<dim> &model, const FamilyView<dim> &family, FamilyCoefficients &coefficients);
+
+    /// Number of families that were weighed at first.
+    LocalIndex n_weighed = 0;
 
     /// Counts what the reports say. Collective.
     void count_reports();

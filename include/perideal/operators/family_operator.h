@@ -77,12 +77,31 @@ namespace perideal
     /// Where the nodes are.
     dealii::AlignedVector<NodeRecord>                        positions;
     std::conditional_t<deformed, DeformedBonds, BondsAtRest> deformation;
+    /// Where weights stand by kind of bond, a record of each: near and far weight of the first sum, then the
+    /// same of the second or of forces, or the stiffness.
+    dealii::AlignedVector<NodeRecord> kinds;
 
   private:
+    void make_kinds();
+
     void import_displacement(const NodalVector &displacement) const;
+    /// @p shared: whether weights stand by kind of bond.
+    template <bool shared>
     void sum_over_families() const;
     void turn_sums_into_states() const;
+    template <bool shared>
     void sum_forces() const;
+    template <bool shared>
+    void apply(const NodalVector &displacement) const;
+
+    /// Of four bonds: the weights of their ends, and their stiffness.
+    struct FourBonds
+    {
+      Lanes near[n_sums > 0 ? n_sums : 1], far[n_sums > 0 ? n_sums : 1], stiffness;
+    };
+    /// Those for sums, without a stiffness, or for forces, of the bonds from slot @p k on.
+    template <bool shared, bool for_forces>
+    void load_weights(FourBonds &bonds, const BondIndex k) const;
 
     /// What multiplies the bond's own extension in its force.
     double stiffness(const BondIndex slot) const
@@ -90,7 +109,7 @@ namespace perideal
       if constexpr (deformed)
         return deformation.stiffness[slot];
       else
-        return weights->stiffness[slot];
+        return weights->stiffness[weights->at(slot)];
     }
 
     // Work space of vmult().

@@ -33,7 +33,10 @@ namespace perideal
     std::vector<std::array<double, 3>> entries;
   };
 
-  /// Weights of every bond, by slot: of each end for each sum, and one stiffness.
+  /**
+   * Weights of every bond: of each end for each sum, and one stiffness. They stand by slot; where equal
+   * families share theirs, by kind of bond.
+   */
   template <typename Number, unsigned int n_sums, bool own_force_weights>
   struct SlotWeights
   {
@@ -44,6 +47,9 @@ namespace perideal
     };
     using Sums = std::array<Ends, n_sums>;
 
+    /// Where the weights of a slot stand.
+    BondIndex at(const BondIndex slot) const { return kind.empty() ? slot : BondIndex(kind[slot]); }
+
     const Sums &force_weights() const
     {
       if constexpr (own_force_weights)
@@ -52,25 +58,33 @@ namespace perideal
         return sum_weight;
     }
 
-    /// Takes the weights of another precision.
+    /// Takes the weights of another precision, by slot.
     template <typename Other>
     void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other)
     {
-      const auto copy = [](const auto &from, Sums &to) {
-        std::transform(from.begin(), from.end(), to.begin(), [](const auto &ends) {
-          return Ends{{ends.near.begin(), ends.near.end()}, {ends.far.begin(), ends.far.end()}};
-        });
+      const BondIndex n_slots = other.kind.empty() ? other.stiffness.size() : other.kind.size();
+      const auto      copy    = [&](const std::vector<Other> &from, std::vector<Number> &to) {
+        to.resize(n_slots);
+        for (BondIndex slot = 0; slot < n_slots; ++slot)
+          to[slot] = static_cast<Number>(from[other.at(slot)]);
       };
-      copy(other.sum_weight, sum_weight);
-      if (own_force_weights)
-        copy(other.force_weight, force_weight);
-      stiffness.assign(other.stiffness.begin(), other.stiffness.end());
+      for (unsigned int a = 0; a < n_sums; ++a)
+        {
+          copy(other.sum_weight[a].near, sum_weight[a].near);
+          copy(other.sum_weight[a].far, sum_weight[a].far);
+          if (own_force_weights)
+            {
+              copy(other.force_weight[a].near, force_weight[a].near);
+              copy(other.force_weight[a].far, force_weight[a].far);
+            }
+        }
+      copy(other.stiffness, stiffness);
     }
 
     std::size_t weights_memory() const
     {
       using dealii::MemoryConsumption::memory_consumption;
-      std::size_t bytes = memory_consumption(stiffness);
+      std::size_t bytes = memory_consumption(stiffness) + memory_consumption(kind);
       for (const Sums *weights : {&sum_weight, &force_weight})
         for (const Ends &ends : *weights)
           bytes += memory_consumption(ends.near) + memory_consumption(ends.far);
@@ -81,6 +95,8 @@ namespace perideal
     /// Empty unless the shape has them.
     Sums                force_weight;
     std::vector<Number> stiffness;
+    /// The kind of bond at each slot, 0 at padding; empty: weights stand by slot.
+    std::vector<LocalIndex> kind;
   };
 
   /**
@@ -95,8 +111,7 @@ namespace perideal
     FamilyWeights(const std::shared_ptr<const Families<dim>> &families,
                   LinearModel<dim>                           &model,
                   const SolidOf<dim>                         &solid_of,
-                  const BondPredicate<dim>                   &is_cut,
-                  const bool                                  will_change);
+                  const Weighing<dim>                        &how);
 
     void reweigh(const std::vector<LocalIndex>                                 &nodes,
                  LinearModel<dim>                                              &model,
@@ -106,8 +121,10 @@ namespace perideal
     std::size_t memory_consumption() const override;
 
     using Slots = SlotWeights<double, n_sums, own_force_weights>;
+    using Slots::at;
     using Slots::force_weight;
     using Slots::force_weights;
+    using Slots::kind;
     using Slots::stiffness;
     using Slots::sum_weight;
     using typename Slots::Ends;
@@ -127,8 +144,12 @@ namespace perideal
     std::vector<double> energy;
 
   private:
+    /// Room for the weights of so many slots or kinds of bonds.
+    void make_room(const BondIndex n);
     void
     weigh_families(LinearModel<dim> &model, const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut);
+    /// The same where equal families share their weights.
+    void weigh_different_families(LinearModel<dim> &model, const SolidOf<dim> &solid_of);
     /// What the families' owners made of far ends, and what follows from both ends. Collective.
     void join_ends();
     void import_maps();
@@ -141,15 +162,11 @@ namespace perideal
 
   /// Weighs every family with the model. Collective.
   /// @param solid_of by material id; every material of the nodes is listed.
-  /// @param is_cut bonds that are there no more: they get no weights and the families are
-  ///   weighed without them; empty: none
-  /// @param will_change whether there will be a reweigh()
   template <int dim>
   std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &families,
                                                 LinearModel<dim>                           &model,
                                                 const SolidOf<dim>                         &solid_of,
-                                                const BondPredicate<dim> &is_cut      = BondPredicate<dim>(),
-                                                const bool                will_change = false);
+                                                const Weighing<dim>                        &how = {});
 
   /// Calls a macro with every family shape there is: dim, n_sums, own_force_weights.
 #define PERIDEAL_FOR_FAMILY_SHAPES(CALL)                                                                     \

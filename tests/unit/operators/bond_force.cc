@@ -329,7 +329,7 @@ TEST(BondForce, WeighsFamiliesAfterTheCut)
         return ElasticSolid<2>(ElasticConstants::of_moduli(1., 0.6, PlaneAssumption::plane_strain));
       };
       const auto weights =
-        weigh_bonds<2>(whole_body.families, *create_model<2>(parameters, 1.), solid_of, is_cut);
+        weigh_bonds<2>(whole_body.families, *create_model<2>(parameters, 1.), solid_of, {is_cut});
       const auto expected = weigh_bonds<2>(half_body.families, *create_model<2>(parameters, 1.), solid_of);
       // The right half is the mirror image of the left one.
       EXPECT_EQ(weights->counts.fallback, 2 * expected->counts.fallback);
@@ -386,7 +386,7 @@ TEST(BondForce, WeighsFamiliesOfNothing)
     [](const dealii::types::material_id) {
       return ElasticSolid<2>(ElasticConstants::of_moduli(1., 0.6, PlaneAssumption::plane_strain));
     },
-    all));
+    {all}));
   EXPECT_EQ(bonds->cut(all), body.families->n_bonds());
   NodalVector force, displacement;
   bonds->initialize(force);
