@@ -72,6 +72,13 @@ def run(options, scene, settings, check=False, timeout=None, may_fail=False):
         return Run(status, output, summary, seconds)
 
 
+def sized_mesh(directory, mesh, size):
+    """A .geo file of the project, a path from its root, with another value of the parameter Size [m]."""
+    path = Path(directory) / f"{Path(mesh).stem}_{size}.geo"
+    path.write_text(f'Size = {size};\nInclude "{ROOT / mesh}";\n', encoding="utf-8")
+    return path
+
+
 def medians(options, figures, scene, settings, **more):
     """Medians of figures(summary), a dictionary of numbers, over the repeated runs of a scene."""
     rows = [figures(run(options, scene, settings, **more).summary) for _ in range(options.repeat)]

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Plots and tables of what work_precision.py measured."""
+
+import math
+import os
+import subprocess
+from pathlib import Path
+
+from runs import PAGE, markdown_table
+
+# Below this an error is that of the solver's tolerance, and of no interest beside others.
+SMALLEST_DRAWN = 1e-11
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#7f7f00", "#9467bd"]
+STYLES = {"FEM Q1": 'linewidth 4 linecolor rgb "black" pointtype 5 dashtype 1',
+          "FEM Q2": 'linewidth 4 linecolor rgb "#909090" pointtype 7 dashtype 2'}
+PAPER_STYLE = 'linewidth 4 linecolor rgb "red" pointtype 9 dashtype 4'
+
+
+def lines_of(rows):
+    """(seconds, error) of each resolution by method, those that failed left out."""
+    result = {}
+    for row in rows:
+        result.setdefault(row["method"], [])
+        if not math.isnan(row["error"]):
+            result[row["method"]].append((row["seconds"], row["error"]))
+    return result
+
+
+def draw(scene, rows, path):
+    """Error against time, a line a method."""
+    lines = lines_of(rows)
+    drawn = [method for method in scene.methods if method.drawn and lines.get(method.name)]
+    script = ['set terminal pngcairo size 900,520 font "DejaVu Sans,11" background "white"', f'set output "{path}"',
+              "set logscale xy", 'set format x "10^{%L}"', 'set format y "10^{%L}"',
+              'set grid xtics ytics linetype 1 linewidth 0.5 linecolor rgb "#d8d8d8"',
+              "set key outside right top Left reverse noenhanced samplen 2.5 spacing 1.2",
+              'set xlabel "run time [s]"', 'set ylabel "relative error"']
+    plots, colours = [], iter(COLOURS)
+    for k, method in enumerate(drawn):
+        points = "\n".join(f"{seconds} {max(error, SMALLEST_DRAWN)}" for seconds, error in lines[method.name])
+        script.append(f"$method{k} << EOD\n{points}\nEOD")
+        style = (STYLES[method.name] if method.name in STYLES else PAPER_STYLE if method.kind == "paper" else
+                 f'linewidth 2 linecolor rgb "{next(colours)}" pointtype {6 + k % 9}')
+        plots.append(f'$method{k} using 1:2 with linespoints {style} title "{method.name}"')
+    script.append("plot " + ", ".join(plots))
+    subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
+
+
+def time_to(line, target):
+    """Seconds to an error on a line of (seconds, error), interpolated between resolutions in logarithms, and whether the
+    coarsest is better already; None: not reached."""
+    for k, (seconds, error) in enumerate(line):
+        if error <= target:
+            if k == 0:
+                return seconds, True
+            before_seconds, before = line[k - 1]
+            share = math.log(before / target) / math.log(before / error)
+            return before_seconds * (seconds / before_seconds) ** share, False
+    return None
+
+
+def ratio(line, base, target):
+    """Time to an error over that of the base, as text: in brackets where a coarsest mesh is better already."""
+    own, other = time_to(line, target), time_to(base, target)
+    if own is None:
+        return "not reached"
+    if other is None:
+        return f"{number(own[0])} s, base not"
+    value = number(own[0] / other[0])
+    return f"({value})" if own[1] or other[1] else value
+
+
+def number(value):
+    return f"{value:.0f}" if value >= 99.5 else f"{value:.3g}" if value >= 9.95 else f"{value:.2g}"
+
+
+def scene_section(name, scene, rows, output):
+    """Plot and table of one scene as Markdown."""
+    lines = lines_of(rows)
+    base = lines.get(scene.base, [])
+    table = []
+    for method in scene.methods:
+        line = lines.get(method.name)
+        if line is None:
+            continue
+        best = f"{min(error for _, error in line):.1e}" if line else "-"
+        table.append([method.name, *(ratio(line, base, target) for target in scene.targets), best])
+    headings = ["method", *(f"to {target:g}" for target in scene.targets), "smallest error"]
+    return "\n\n".join([f"### {name}", scene.about,
+                        f"![Run time against error, {name}]({picture(name, output)})",
+                        markdown_table(headings, table), remarks(rows)]).strip()
+
+
+def picture(name, output):
+    """The plot's path as the page links it."""
+    return Path(os.path.relpath(output / f"work_precision_{name}.png", PAGE.parent)).as_posix()
+
+
+def remarks(rows):
+    """What stopped."""
+    stopped = {}
+    for row in rows:
+        if row["remark"]:
+            stopped.setdefault((row["method"], row["remark"]), []).append(row["cells"])
+    return "\n".join(f"- {method} at {', '.join(cells)} cells stopped: {remark}"
+                     for (method, remark), cells in stopped.items())
+
+
+def asked_of_consistent(tables):
+    """Time of the consistent form to 1e-3 over that of Q1 elements."""
+    rows = []
+    for name in ("plate_with_hole", "block_with_hole"):
+        if name not in tables:
+            continue
+        lines = lines_of(tables[name])
+        own, fem = (time_to(lines.get(method, []), 1e-3) for method in ("consistent form", "FEM Q1"))
+        if own is None or fem is None:
+            rows.append([f"{name}: consistent form to 1e-3 over FEM Q1", "not reached", "<= 2", "no"])
+            continue
+        value = own[0] / fem[0]
+        rows.append([f"{name}: consistent form to 1e-3 over FEM Q1", number(value), "<= 2", met(value <= 2)])
+    return rows
+
+
+def asked_of_paper(scenes, tables):
+    """Time of the paper's way to its smallest error over that of the consistent form to the same."""
+    rows = []
+    for name, table in tables.items():
+        paper = [method.name for method in scenes[name].methods if method.kind == "paper"]
+        lines = lines_of(table)
+        if not paper or not lines.get(paper[0]) or not lines.get("consistent form"):
+            continue
+        seconds, error = min(lines[paper[0]], key=lambda point: point[1])
+        own = time_to(lines["consistent form"], error)
+        what = f"{name}: paper's way to {error:.1e} over consistent form"
+        if own is None:
+            rows.append([what, "not reached", ">= 100", "no"])
+            continue
+        value = seconds / own[0]
+        rows.append([what, ("at least " if own[1] else "") + number(value), ">= 100", met(value >= 100)])
+    return rows
+
+
+def met(condition):
+    return "yes" if condition else "no"
+
+
+def section(scenes, tables, output):
+    """The whole section as Markdown."""
+    asked = asked_of_consistent(tables) + asked_of_paper(scenes, tables)
+    parts = [markdown_table(["what", "ratio of times", "asked", "met"], asked)] if asked else []
+    parts += [scene_section(name, scenes[name], rows, output) for name, rows in tables.items()]
+    return "\n\n".join(parts)
