@@ -9,23 +9,18 @@ plate: set-up and solve of the anisotropic plate with a hole (prm/examples/lamin
 and without its penalty, and by bonds with tensors; medians of --repeat runs of each in turn, as ratios to bonds with tensors
 in the form "one point". Errors are those against one reference for all, on the finest mesh.
 step: a load step of quasi static with a Saint Venant-Kirchhoff material over the linear static solve of the same square of
-22,500 points, on --ranks ranks.
+22,500 points.
+All on --ranks ranks.
 """
 
 import argparse
-import json
 import math
-import os
-import shlex
 import statistics
-import subprocess
 import sys
 import tempfile
-from pathlib import Path
 
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1"}
-ROOT = Path(__file__).resolve().parents[2]
+from runs import add_arguments, run, sized_mesh
+
 FAMILY = "Material/Form=family"
 
 # Settings of a column by its name; of tables: heading, cells a side, settings by these.
@@ -51,18 +46,12 @@ STEPS = 2
 SQUARE = ["Mesh/Cells=150, 150", "Mesh/Size=1, 1", "Comparison/FEM=false", "Boundary conditions/right/u_x=0.02*t"]
 
 
-def run(arguments, scene, settings, ranks=1, may_fail=False):
-    """summary.json of one run; of a failed one, too, where it may fail."""
-    with tempfile.TemporaryDirectory() as directory:
-        command = [arguments.program, str(ROOT / scene)]
-        for setting in [*settings, f"Output directory={directory}", "Output/Fields=displacement"]:
-            command += ["--set", setting]
-        if ranks > 1:
-            command = [*shlex.split(arguments.mpirun), "-n", str(ranks), *command]
-        done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True)
-        if done.returncode != 0 and not (may_fail and done.returncode == 2):
-            sys.exit(f"correspondence.py: exit status {done.returncode} of {shlex.join(command)}\n{done.stderr}")
-        return json.loads((Path(directory) / "summary.json").read_text())
+def summary_of(arguments, scene, settings, may_fail=False):
+    """summary.json of one run; of one without convergence, too, where it may fail."""
+    done = run(arguments, scene, [*settings, "Output/Fields=displacement"], may_fail=may_fail)
+    if done.status not in (0, 2):
+        sys.exit(f"correspondence.py: exit status {done.status}\n{done.output}")
+    return done.summary
 
 
 def print_convergence(arguments):
@@ -73,8 +62,8 @@ def print_convergence(arguments):
         for cells in sizes:
             row = [str(cells)]
             for name, cloud in CLOUDS.items():
-                errors = run(arguments, "prm/verification/correspondence_convergence.prm",
-                             [f"Mesh/Cells={cells}, {cells}", *settings(cells), *cloud])["errors"]
+                errors = summary_of(arguments, "prm/verification/correspondence_convergence.prm",
+                                    [f"Mesh/Cells={cells}, {cells}", *settings(cells), *cloud])["errors"]
                 error = errors["exact"]["l2"]
                 row += [f"{error:.2e}", f"{math.log2(coarse[name] / error):.2f}" if name in coarse else ""]
                 coarse[name] = error
@@ -83,25 +72,18 @@ def print_convergence(arguments):
             print("| " + " | ".join([*row, f"{elements:.2e}"]) + " |", flush=True)
 
 
-def plate_mesh(directory, size):
-    """The plate's .geo file with squares of another size."""
-    path = Path(directory) / f"plate_{size}.geo"
-    path.write_text(f'Size = {size};\nInclude "{ROOT / "meshes" / "laminate_with_hole.geo"}";\n')
-    return path
-
-
 def print_plate(arguments):
     print("\n| nodes | model | iterations | converged | l2 error | set-up | solve | both |\n|--:|---|--:|---|--:|--:|--:|--:|")
     with tempfile.TemporaryDirectory() as directory:
         for size in arguments.sizes:
-            common = [f"Mesh/File={plate_mesh(directory, size)}", "Comparison/FEM=false",
-                      f"Comparison/Reference mesh={ROOT / 'meshes' / 'laminate_with_hole_fine.geo'}",
+            common = [f"Mesh/File={sized_mesh(directory, 'meshes/laminate_with_hole.geo', size)}", "Comparison/FEM=false",
+                      "Comparison/Reference mesh=meshes/laminate_with_hole_fine.geo",
                       "Comparison/Reference refinements=0", *arguments.set]
             runs = {model: [] for model in PLATE_MODELS}
             for _ in range(arguments.repeat):
                 for model, settings in PLATE_MODELS.items():
-                    runs[model].append(run(arguments, "prm/examples/laminate_with_hole.prm", [*common, *settings],
-                                           may_fail=True))
+                    runs[model].append(summary_of(arguments, "prm/examples/laminate_with_hole.prm",
+                                                  [*common, *settings], may_fail=True))
             seconds = {model: {phase: statistics.median(sum(r["seconds"][p] for p in phase.split("+")) for r in results)
                                for phase in ("setup", "solve", "setup+solve")} for model, results in runs.items()}
             base = seconds["tensors, one point"]
@@ -119,7 +101,7 @@ def print_step(arguments):
     times, iterations = {"static": [], "step": []}, {}
     for _ in range(arguments.repeat):
         for name, settings, n in (("static", linear, 1), ("step", steps, STEPS)):
-            summary = run(arguments, "prm/examples/hyperelastic_bar.prm", [*SQUARE, *settings], arguments.ranks)
+            summary = summary_of(arguments, "prm/examples/hyperelastic_bar.prm", [*SQUARE, *settings])
             times[name].append(summary["seconds"]["solve"] / n)
             iterations[name] = summary["solver"]["iterations"], summary["solver"].get("linear_iterations")
     ratios = sorted(s / l for s, l in zip(times["step"], times["static"]))
@@ -133,12 +115,9 @@ PARTS = {"convergence": print_convergence, "plate": print_plate, "step": print_s
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True)
+    add_arguments(parser, repeat=5)
     parser.add_argument("--part", nargs="+", choices=PARTS, default=list(PARTS))
-    parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--sizes", nargs="+", default=PLATE_SIZES, help="of the plate's squares [m]")
-    parser.add_argument("--ranks", type=int, default=2, help="of the part step")
-    parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     parser.add_argument("--set", action="append", default=[], help="of the part plate, as of perideal")
     arguments = parser.parse_args()
     for part in arguments.part:

@@ -46,24 +46,33 @@ def add_arguments(parser, repeat=3):
     parser.add_argument("--repeat", type=int, default=repeat, help="runs of each case, for medians")
 
 
+def launcher(options):
+    """What stands before a program that runs on several ranks."""
+    ranks = getattr(options, "ranks", 1)
+    return [*shlex.split(options.mpirun), "-n", str(ranks)] if ranks > 1 else []
+
+
+def execute(command, timeout=None, directory=None):
+    """Status and output of a program, any; status None: it took too long."""
+    try:
+        done = subprocess.run(command, cwd=directory, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True,
+                              timeout=timeout, check=False)
+    except subprocess.TimeoutExpired:
+        return None, f"no end within {timeout} s"
+    return done.returncode, done.stdout + done.stderr
+
+
 def run(options, scene, settings, check=False, timeout=None, may_fail=False):
-    """Runs a scene, a path from the project's root, with settings "Section/Name=value"; ends this program
+    """Runs a scene, a path from the project's root as are those in settings "Section/Name=value"; ends this program
     when the run fails, unless it may."""
     with tempfile.TemporaryDirectory() as directory:
-        command = [options.program, str(ROOT / scene)]
-        if getattr(options, "ranks", 1) > 1:
-            command = [*shlex.split(options.mpirun), "-n", str(options.ranks), *command]
+        command = [*launcher(options), options.program, str(ROOT / scene)]
         for setting in [*settings, f"Output directory={directory}"]:
             command += ["--set", setting]
         if check:
             command.append("--check")
         start = time.monotonic()
-        try:
-            done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True,
-                                  timeout=timeout, check=False)
-            status, output = done.returncode, done.stdout + done.stderr
-        except subprocess.TimeoutExpired:
-            status, output = None, f"no end within {timeout} s"
+        status, output = execute(command, timeout, ROOT)
         seconds = time.monotonic() - start
         if status != 0 and not may_fail:
             sys.exit(f"exit status {status} of {shlex.join(command)}\n{output}")

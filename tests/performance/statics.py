@@ -13,20 +13,11 @@ displacement treatment "reference"); without, runs are shorter.
 """
 
 import argparse
-import json
 import math
-import os
-import shlex
-import shutil
-import statistics
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
 
-SCENE = Path(__file__).resolve().parents[2] / "prm" / "verification" / "plate_with_hole_convergence.prm"
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+from runs import add_arguments, medians
+
+SCENE = "prm/verification/plate_with_hole_convergence.prm"
 # Cells of the whole plate: those around and across each of the eight blocks.
 SIZES = {1920: "15, 16", 7680: "30, 32", 30720: "60, 64", 122880: "120, 128", 491520: "240, 256"}
 VARIANTS = {
@@ -45,20 +36,6 @@ COLUMNS = [  # heading, key of figures(), format
     ("PD/FEM total", "total ratio", "{:.2f}"), ("PD/FEM solve", "solve ratio", "{:.2f}"),
     ("bytes a node", "bytes", "{:.0f}"),
 ]
-
-
-def run(arguments, settings):
-    """Runs the scene once and returns its summary; ends the program when the run fails."""
-    with tempfile.TemporaryDirectory() as directory:
-        command = [arguments.program, str(SCENE)]
-        for setting in [*settings, *arguments.set, f"Output directory={directory}"]:
-            command += ["--set", setting]
-        if arguments.ranks > 1:
-            command = [*shlex.split(arguments.mpirun), "-n", str(arguments.ranks), *command]
-        done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True)
-        if done.returncode != 0:
-            sys.exit(f"statics.py: exit status {done.returncode} of {shlex.join(command)}\n{done.stderr}")
-        return json.loads((Path(directory) / "summary.json").read_text())
 
 
 def figures(summary):
@@ -89,8 +66,7 @@ def measure(arguments, size, variant, treatment):
     settings.append(f"Comparison/Reference={str(with_reference).lower()}")
     if arguments.reference is not None:
         settings.append(f"Comparison/Reference refinements={arguments.reference}")
-    runs = [figures(run(arguments, settings)) for _ in range(arguments.repeat)]
-    return {key: statistics.median(each[key] for each in runs) for key in runs[0]}
+    return medians(arguments, figures, SCENE, [*settings, *arguments.set])
 
 
 def order(coarse, fine):
@@ -112,18 +88,13 @@ def text(figure, form):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
-    parser.add_argument("--repeat", type=int, default=1, help="runs of each case")
+    add_arguments(parser, repeat=1)
     parser.add_argument("--sizes", type=int, nargs="+", default=[1920, 7680, 30720], choices=SIZES)
     parser.add_argument("--variants", nargs="+", default=list(VARIANTS), choices=VARIANTS)
     parser.add_argument("--treatments", nargs="+", default=["mirror", "face value"], choices=TREATMENTS)
     parser.add_argument("--reference", type=int, help="refinements of the mesh for the reference")
     parser.add_argument("--set", action="append", default=[], help="as of perideal")
     arguments = parser.parse_args()
-    if shutil.which(arguments.program) is None:
-        parser.error(f"no such program: {arguments.program}")
 
     print_row([heading for heading, _, _ in COLUMNS])
     print("|" + "|".join("-" * (len(heading) + 1) + ":" for heading, _, _ in COLUMNS) + "|")

@@ -9,15 +9,13 @@ solve over iterations and bonds. Medians of --repeat runs of either, one after t
 """
 
 import argparse
-import json
-import os
 import statistics
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+from runs import add_arguments, run
+
 CELLS = {2: "700, 700", 3: "56, 56, 56"}
 MODELS = {"ordinary": ["Material/Model=ordinary"],
           "tensor involved": ["Material/Model=tensor involved", "Material/Form=moment corrected"],
@@ -52,28 +50,22 @@ end
 """
 
 
-def nanoseconds_a_bond(program, dimension, model):
+def nanoseconds_a_bond(arguments, dimension, model):
     """One run; it ends without convergence, as it is meant to."""
     with tempfile.TemporaryDirectory() as directory:
         scene = Path(directory) / "box.prm"
         scene.write_text(SCENE.format(dimension=dimension, cells=CELLS[dimension],
-                                      hold_z="set u_z = 0" if dimension == 3 else ""))
-        command = [program, str(scene), "--set", f"Output directory={directory}/output"]
-        for setting in MODELS[model]:
-            command += ["--set", setting]
-        done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True)
-        summary = Path(directory) / "output" / "summary.json"
-        if done.returncode != 2 or not summary.exists():
-            sys.exit(f"tensor_bonds.py: exit status {done.returncode}\n{done.stderr}")
-        report = json.loads(summary.read_text())
-        iterations = report["solver"]["iterations"][0]
-        return 1e9 * report["seconds"]["solve"] / (iterations * report["bonds"])
+                                      hold_z="set u_z = 0" if dimension == 3 else ""), encoding="utf-8")
+        done = run(arguments, scene, MODELS[model], may_fail=True)
+    if done.status != 2 or not done.summary:
+        sys.exit(f"tensor_bonds.py: exit status {done.status}\n{done.output}")
+    iterations = done.summary["solver"]["iterations"][0]
+    return 1e9 * done.summary["seconds"]["solve"] / (iterations * done.summary["bonds"])
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--repeat", type=int, default=5)
+    add_arguments(parser, repeat=5)
     parser.add_argument("--dimensions", type=int, nargs="+", default=[2, 3])
     arguments = parser.parse_args()
     print("| dim | model | ns a bond and iteration | ordinary over it |\n|--:|---|--:|--:|")
@@ -81,7 +73,7 @@ def main():
         times = {model: [] for model in MODELS}
         for _ in range(arguments.repeat):
             for model, list_of_times in times.items():
-                list_of_times.append(nanoseconds_a_bond(arguments.program, dimension, model))
+                list_of_times.append(nanoseconds_a_bond(arguments, dimension, model))
         median = {model: statistics.median(values) for model, values in times.items()}
         for model, value in median.items():
             print(f"| {dimension} | {model} | {value:.2f} | {median['ordinary'] / value:.2f} |")
