@@ -7,26 +7,29 @@ the same mesh beside them, and the papers' own way (one point, the published for
                                         [--output DIRECTORY] [--no-page]
 
 Leaves work_precision_SCENE.csv with all figures and work_precision_SCENE.png (by gnuplot) in the output directory, and
-writes the section work_precision of tests/performance/README.md from the .csv files there, those of earlier calls too.
+writes the sections choices and work_precision of tests/performance/README.md from the .csv files there, those of
+earlier calls too.
 
 Seconds are those of the method alone: neighbours, set-up and solve of peridynamics; assembly, multigrid and solve of
-finite elements. Errors come from a run with what they are against, seconds and memory from runs without, medians of --repeat.
+finite elements. Errors come from a run with what they are against, seconds and memory from runs without, medians of
+--repeat.
 """
 
 import argparse
 import csv
 import math
 import statistics
+import sys
 import tempfile
 from pathlib import Path
 
 from runs import PAGE, add_arguments, replace_section, run, sized_mesh, write_csv
-from work_precision_page import draw, section
+from work_precision_page import choices, draw, section
 from work_precision_scenes import SCENES, TAKES_REFERENCE
 
 # error is the relative l2 error, other_error the largest, unless the scene has others.
-COLUMNS = ["method", "kind", "cells", "nodes", "error", "other_error", "seconds", "neighbours", "setup", "solve", "iterations",
-           "operator_bytes", "memory_bytes", "remark"]
+COLUMNS = ["method", "kind", "cells", "nodes", "error", "other_error", "seconds", "neighbours", "setup", "solve",
+           "iterations", "operator_bytes", "memory_bytes", "remark"]
 
 
 def is_true(condition):
@@ -51,13 +54,17 @@ class Runs:
             settings.append(f"Comparison/FEM={is_true(fem)}")
         if self.scene.truth == "reference":
             asked = truth or TAKES_REFERENCE in method.settings
-            settings += [f"Comparison/Reference={is_true(asked)}", *(resolution.truth if asked else ())]
-        return run(self.options, self.scene.file, settings, may_fail=True)
+            reference = resolution.truth if method.accurate else resolution.rough or resolution.truth
+            settings += [f"Comparison/Reference={is_true(asked)}", *(reference if asked else ())]
+        result = run(self.options, self.scene.file, settings, may_fail=True)
+        if result.status not in (0, 2):
+            sys.exit(f"exit status {result.status} of {self.scene.file} with {settings}\n{result.output}")
+        return result
 
     def measure(self, resolution, method):
         """A row of figures by name."""
         is_fem = method.kind == "fem"
-        carries = method.settings == self.scene.carrier
+        carries = is_fem or method.settings == self.scene.carrier
         key = (resolution.name, method.settings)
         if key not in self.compared:
             self.compared[key] = self.run(resolution, method, carries, True)
@@ -136,7 +143,7 @@ def main():
     parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES), metavar="NAME",
                         help="any of " + ", ".join(SCENES))
     parser.add_argument("--quick", action="store_true", help="the two coarsest resolutions of the methods in the plots")
-    parser.add_argument("--output", type=Path, default=PAGE.parent / "results")
+    parser.add_argument("--output", type=lambda path: Path(path).resolve(), default=PAGE.parent / "results")
     parser.add_argument("--no-page", action="store_true", help="leave README.md as it is")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
@@ -150,6 +157,7 @@ def main():
     for name in options.scenes:
         draw(SCENES[name], tables[name], options.output / f"work_precision_{name}.png")
     if not options.no_page:
+        replace_section("choices", choices(tables))
         replace_section("work_precision", section(SCENES, tables, options.output))
 
 

@@ -11,6 +11,28 @@ from runs import PAGE, markdown_table
 # Below this an error is that of the solver's tolerance, and of no interest beside others.
 SMALLEST_DRAWN = 1e-11
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c564b", "#7f7f00", "#9467bd"]
+# What serves which situation: what to set, and the scene and methods whose figures show it, the choice first.
+CHOICES = [
+    ("linear statics, isotropic", "nothing: `extended ordinary`, `consistent`, `static` are the defaults",
+     "plate_with_hole", ["consistent form", "FEM Q1", "paper form, mirror", "ordinary, mirror"]),
+    ("the same in 3-D", "nothing", "block_with_hole", ["consistent form", "FEM Q1", "energy form, mirror"]),
+    ("linear statics of fibres and crystals", "`Model = tensor involved`", "laminate_with_hole",
+     ["consistent form", "FEM Q1", "surface cure, collar", "one point, collar"]),
+    ("bonds between nodes in linear statics", "`Form = energy`, `Treatment = taylor ghosts`", "plate_with_hole",
+     ["energy form, ghosts", "energy form, mirror", "energy form, layer"]),
+    ("equilibria with cracks (`quasi static`), which know no ghosts", "`Form = energy`, `Treatment = layer`",
+     "pdbc_1_mixed", ["energy form, layer", "energy form, balanced", "springs, printed"]),
+    ("springs", "`Quadrature/Scheme = exact` or `partial volume`; several Gauss points take longer to the same",
+     "graded_square", ["springs, exact", "springs, partial volume", "springs, gauss 2", "springs, one point"]),
+    ("springs with free surfaces in linear statics", "that, with `Treatment = taylor ghosts`", "tension_column",
+     ["springs, exact, ghosts", "springs, exact", "springs, one point"]),
+    ("bonds with tensors, in motion or with cracks", "`Form = moment corrected` (the default there)",
+     "tensor_manufactured_2d", ["moment corrected", "one point", "one point, exact parts"]),
+    ("large strain", "`Model = correspondence`, `Form = consistent`", "hyperelastic_bar",
+     ["correspondence, faces", "FEM Q1", "correspondence, families"]),
+    ("motion", "`Form = energy`, one point (the defaults there)", "standing_wave",
+     ["energy form", "ordinary", "springs, exact parts", "springs"]),
+]
 STYLES = {"FEM Q1": 'linewidth 4 linecolor rgb "black" pointtype 5 dashtype 1',
           "FEM Q2": 'linewidth 4 linecolor rgb "#909090" pointtype 7 dashtype 2'}
 PAPER_STYLE = 'linewidth 4 linecolor rgb "red" pointtype 9 dashtype 4'
@@ -104,6 +126,27 @@ def remarks(rows):
             stopped.setdefault((row["method"], row["remark"]), []).append(row["cells"])
     return "\n".join(f"- {method} at {', '.join(cells)} cells stopped: {remark}"
                      for (method, remark), cells in stopped.items())
+
+
+def evidence(rows, methods):
+    """Errors of methods at the finest resolution they share, times over that of the first."""
+    found = {method: {row["cells"]: row for row in rows if row["method"] == method and not math.isnan(row["error"])}
+             for method in methods}
+    shared = [cells for cells in found[methods[0]] if all(cells in found[method] for method in methods)]
+    if not shared:
+        return "-"
+    points = [found[method][shared[-1]] for method in methods]
+    first = points[0]
+    others = [f"{point['method']} {point['error']:.1e} in {number(point['seconds'] / first['seconds'])} of its time"
+              for point in points[1:]]
+    return f"{shared[-1]} cells: " + "; ".join([f"{first['method']} {first['error']:.1e}", *others])
+
+
+def choices(tables):
+    """What to choose when, as a Markdown table."""
+    return markdown_table(["situation", "set", "scene", "figures"],
+                          [[situation, choice, name, evidence(tables[name], methods)]
+                           for situation, choice, name, methods in CHOICES if name in tables])
 
 
 def asked_of_consistent(tables):
