@@ -28,6 +28,15 @@ namespace perideal
       scene.null_space.remove_mean(*scene.nodes, result);
       return result;
     }
+
+    /// Finite elements on cells of their own, rigid-body motions removed.
+    template <int dim>
+    NodalField<dim> at_points(const SceneState<dim> &scene, const ElasticFem<dim> &fem)
+    {
+      auto result = fem.evaluate(scene.nodes->position);
+      scene.null_space.remove_mean(*scene.nodes, result);
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -35,11 +44,12 @@ namespace perideal
                             const SolidsByMaterial<dim> &solids,
                             const double                 time,
                             const double                 tolerance,
+                            const unsigned int           degree,
                             Timings                     &timings,
                             Json                        &report)
   {
     const Timings::Scope scope(timings, "fem");
-    ElasticFem<dim>      fem(*scene.mesh, scene.loads);
+    ElasticFem<dim>      fem(*scene.mesh, scene.loads, degree);
     {
       const Timings::Scope part(timings, "fem: assembly");
       fem.assemble(solids, time);
@@ -51,7 +61,9 @@ namespace perideal
     const Timings::Scope part(timings, "fem: solve");
     report["iterations"].push_back(fem.solve(tolerance));
     report["unknowns"] = fem.n_dofs();
-    return at_nodes<dim>(scene, fem);
+    if (fem.is_on_mesh_itself())
+      return at_nodes<dim>(scene, fem);
+    return at_points<dim>(scene, fem);
   }
 
   template <int dim>
@@ -74,9 +86,7 @@ namespace perideal
     fem.set_up_solver();
     // Far below the discretisation errors that are to be seen.
     fem.solve(1e-10);
-    auto result = fem.evaluate(scene.nodes->position);
-    scene.null_space.remove_mean(*scene.nodes, result);
-    return result;
+    return at_points<dim>(scene, fem);
   }
 
   template <int dim>
@@ -193,6 +203,7 @@ namespace perideal
                                      const SolidsByMaterial<dim> &,                                          \
                                      const double,                                                           \
                                      const double,                                                           \
+                                     const unsigned int,                                                     \
                                      Timings &,                                                              \
                                      nlohmann::ordered_json &);                                              \
   template NodalField<dim> nonlinear_fem_at_nodes(const SceneState<dim> &);                                  \

@@ -266,6 +266,11 @@ namespace perideal
           .parameter("Output/Fields")
           .given(field)
           .hint("remove it, or set Solver/Name = dynamics");
+    if (comparison.fem_degree != 1 && model.is_correspondence())
+      throw InputError("finite elements of large strain are Q1")
+        .parameter("Comparison/FEM degree")
+        .given(std::to_string(comparison.fem_degree))
+        .allowed("1 for Material/Model = correspondence in " + method);
     if ((comparison.fem || comparison.reference) && !precracks.cracks.empty())
       throw InputError("the finite elements that the solution would be compared with have no cracks")
         .parameter(comparison.fem ? "Comparison/FEM" : "Comparison/Reference")

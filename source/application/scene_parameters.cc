@@ -16,9 +16,10 @@ namespace perideal
     prm.enter_subsection("Comparison");
     prm.add_parameter("FEM",
                       fem,
-                      "Solve with Q1 finite elements on the same mesh and compare; of the same law along the "
+                      "Solve with finite elements on the same mesh and compare; of the same law along the "
                       "same load steps, where quasi static has Material/Model = correspondence, else linear",
                       Bool());
+    prm.add_parameter("FEM degree", fem_degree, "Degree of these elements: Q1 or Q2 [-]", Integer(1, 2));
     prm.add_parameter("Reference",
                       reference,
                       "Solve with Q2 finite elements on the refined mesh and compare with that as converged",
@@ -53,7 +54,7 @@ namespace perideal
       prm.add_parameter(std::string("Exact u_") + axes[d],
                         exact[d],
                         std::string("Exact displacement along ") + axes[d] +
-                          " [m], a formula in x, y, z, t; empty: not known");
+                          " [m], a formula in x, y, z, t, compared at the end of the run; empty: not known");
     lines = named_texts<LineText>(file, "Comparison");
     for (LineText &line : lines)
       {

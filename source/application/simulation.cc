@@ -234,10 +234,14 @@ namespace perideal
     if (scene.nonlinear_fem)
       scene.comparisons["fem"] = nonlinear_fem_at_nodes(scene);
     else if (parameters.comparison.fem)
-      scene.comparisons["fem"] = solve_fem(
-        scene, compared_solids_on(*scene.mesh), time, parameters.solver.tolerance, timings, summary["fem"]);
-    const auto &exact = parameters.comparison.exact;
-    if (!(exact[0].empty() && exact[1].empty() && exact[2].empty()))
+      scene.comparisons["fem"] = solve_fem(scene,
+                                           compared_solids_on(*scene.mesh),
+                                           time,
+                                           parameters.solver.tolerance,
+                                           parameters.comparison.fem_degree,
+                                           timings,
+                                           summary["fem"]);
+    if (parameters.comparison.has_exact())
       scene.comparisons["exact"] = evaluate_exact(scene, parameters.comparison, time);
     const Timings::Scope scope(timings, "output");
     summary["errors"] = compare(scene, parameters.comparison, parameters.output_directory);

@@ -14,7 +14,7 @@
 
 namespace perideal
 {
-  /// Q1 finite elements on the scene's own mesh, timed as "fem: ...".
+  /// Finite elements of a degree on the scene's own mesh, timed as "fem: ...".
   /// Appends to @p report what the solver did. Collective.
   /// @param solids by the mesh's material ids
   template <int dim>
@@ -22,6 +22,7 @@ namespace perideal
                             const SolidsByMaterial<dim> &solids,
                             const double                 time,
                             const double                 tolerance,
+                            const unsigned int           degree,
                             Timings                     &timings,
                             nlohmann::ordered_json      &report);
 

@@ -38,8 +38,10 @@ namespace perideal
   /// Section "Comparison": what the solution is held against.
   struct ComparisonParameters
   {
-    /// Q1 finite elements on the same mesh.
+    /// Finite elements on the same mesh.
     bool fem = false;
+    /// Polynomial degree of these.
+    unsigned int fem_degree = 1;
     /// Q2 finite elements on the refined mesh.
     bool reference = false;
     /// material | families: whose stiffness the finite elements have.
@@ -58,6 +60,8 @@ namespace perideal
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
     bool by_families() const { return stiffness == "families"; }
+
+    bool has_exact() const { return !(exact[0].empty() && exact[1].empty() && exact[2].empty()); }
   };
 
   /// Section "Initial conditions".
