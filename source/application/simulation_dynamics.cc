@@ -251,6 +251,7 @@ namespace perideal
         if (stops)
           return false;
       }
+    compare_at_end(dynamics.time());
     if (scene.crack_tracker)
       {
         summary["cracks"] = scene.crack_tracker->describe();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/areal_forces.h>
+#include <perideal/application/comparison.h>
 #include <perideal/application/gauge_records.h>
 #include <perideal/application/output_fields.h>
 #include <perideal/application/prescribed_displacements.h>
@@ -174,6 +175,8 @@ namespace perideal
         check_motion(dynamics, dynamics.energy());
         store_motion(dynamics);
       }
+    if (parameters.comparison.has_exact())
+      scene.comparisons["exact"] = evaluate_exact(scene, parameters.comparison, dynamics.time());
     add_output_fields(scene, parameters.field_names(), *field_output);
     field_output->write(number, dynamics.time());
     frame_time = dynamics.time();
