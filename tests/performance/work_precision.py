@@ -8,7 +8,7 @@ the same mesh beside them, and the papers' own way (one point, the published for
 
 Leaves work_precision_SCENE.csv with all figures and work_precision_SCENE.png (by gnuplot) in the output directory, and
 writes the sections choices and work_precision of tests/performance/README.md from the .csv files there, those of
-earlier calls too.
+earlier calls too. Exits with 1 where a run stopped without a solution.
 
 Seconds are those of the method alone: neighbours, set-up and solve of peridynamics; assembly, multigrid and solve of
 finite elements. Errors come from a run with what they are against, seconds and memory from runs without, medians of
@@ -47,7 +47,7 @@ class Runs:
 
     def run(self, resolution, method, fem, truth):
         """One run; fem, truth: whether finite elements and the reference are solved too."""
-        settings = [*self.scene.common, *resolution.settings, *method.settings]
+        settings = [*self.scene.common, *resolution.settings]
         if resolution.sized_mesh:
             settings.append(f"Mesh/File={sized_mesh(self.meshes.name, *resolution.sized_mesh)}")
         if self.scene.carrier is not None:
@@ -56,7 +56,7 @@ class Runs:
             asked = truth or TAKES_REFERENCE in method.settings
             reference = resolution.truth if method.accurate else resolution.rough or resolution.truth
             settings += [f"Comparison/Reference={is_true(asked)}", *(reference if asked else ())]
-        result = run(self.options, self.scene.file, settings, may_fail=True)
+        result = run(self.options, self.scene.file, [*settings, *method.settings], may_fail=True)
         if result.status not in (0, 2):
             sys.exit(f"exit status {result.status} of {self.scene.file} with {settings}\n{result.output}")
         return result
@@ -159,6 +159,10 @@ def main():
     if not options.no_page:
         replace_section("choices", choices(tables))
         replace_section("work_precision", section(SCENES, tables, options.output))
+    stopped = [f"{name}, {row['method']}, {row['cells']} cells: {row['remark']}"
+               for name in options.scenes for row in tables[name] if row["remark"]]
+    if stopped:
+        sys.exit("\n".join(["stopped:", *stopped]))
 
 
 if __name__ == "__main__":

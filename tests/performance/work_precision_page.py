@@ -3,6 +3,7 @@
 
 import math
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -49,7 +50,10 @@ def lines_of(rows):
 
 
 def draw(scene, rows, path):
-    """Error against time, a line a method."""
+    """Error against time, a line a method; nothing without gnuplot."""
+    if shutil.which("gnuplot") is None:
+        print(f"no {path.name}: gnuplot is missing")
+        return
     lines = lines_of(rows)
     drawn = [method for method in scene.methods if method.drawn and lines.get(method.name)]
     script = ['set terminal pngcairo size 900,520 font "DejaVu Sans,11" background "white"', f'set output "{path}"',
@@ -69,8 +73,8 @@ def draw(scene, rows, path):
 
 
 def time_to(line, target):
-    """Seconds to an error on a line of (seconds, error), interpolated between resolutions in logarithms, and whether the
-    coarsest is better already; None: not reached."""
+    """Seconds to an error on a line of (seconds, error), interpolated between resolutions in logarithms, and whether
+    the coarsest is better already; None: not reached."""
     for k, (seconds, error) in enumerate(line):
         if error <= target:
             if k == 0:
@@ -137,7 +141,7 @@ def evidence(rows, methods):
         return "-"
     points = [found[method][shared[-1]] for method in methods]
     first = points[0]
-    others = [f"{point['method']} {point['error']:.1e} in {number(point['seconds'] / first['seconds'])} of its time"
+    others = [f"{point['method']} {point['error']:.1e}, time {number(point['seconds'] / first['seconds'])}"
               for point in points[1:]]
     return f"{shared[-1]} cells: " + "; ".join([f"{first['method']} {first['error']:.1e}", *others])
 

@@ -87,9 +87,14 @@ def scheme(name):
     return f"Quadrature/Scheme={name}"
 
 
-def finite_elements(carrier):
-    """Those on the same mesh."""
-    return (Method("FEM Q1", carrier, "fem", accurate=True),)
+def refined(times):
+    return (f"Comparison/Reference refinements={times}",)
+
+
+def finite_elements(carrier, coarse=None, reference=()):
+    """Those on the same mesh; coarse: resolutions of Q2, for which a reference can be finer; reference: that of Q2."""
+    return (Method("FEM Q1", carrier, "fem", accurate=True),
+            Method("FEM Q2", (*carrier, "Comparison/FEM degree=2", *reference), "fem", coarse, accurate=True))
 
 
 # Plates and blocks with a hole, pulled by displacements of their ends. Relaxation takes the deformed body: a pull of a
@@ -97,14 +102,14 @@ def finite_elements(carrier):
 SMALL_PULL = ("Boundary conditions/right/u_x=5e-7", "Boundary conditions/left/u_x=-5e-7")
 
 
-def hole_methods(paper, coarse):
-    """paper: the published form's settings; coarse: resolutions of bonds between nodes."""
+def hole_methods(paper, coarse, coarse_of_q2):
+    """paper: the published form's settings; coarse: resolutions of bonds between nodes; coarse_of_q2: those of Q2."""
     bonds = partial(Method, coarse=coarse)
     consistent = (*CONSISTENT, held("automatic"))
     energy = (EXTENDED, "Material/Form=energy")
     ghosts = treated("taylor ghosts")
     return (
-        *finite_elements(consistent),
+        *finite_elements(consistent, coarse_of_q2, refined(1)),
         Method("consistent form", consistent, accurate=True),
         bonds("energy form, mirror", (*energy, held("mirror"))),
         bonds("energy form, layer", (*energy, held("layer"))),
@@ -125,10 +130,6 @@ def mesh(name, cells, *more, truth=(), rough=()):
     return Resolution(name, (f"Mesh/Cells={cells}", *more), tuple(truth), tuple(rough))
 
 
-def refined(times):
-    return (f"Comparison/Reference refinements={times}",)
-
-
 PAPER = (EXTENDED, "Material/Form=paper")
 ONCE = "Mesh/Refinements=1"
 CONSISTENT_AT_FACES = (*CONSISTENT, held("automatic"))
@@ -136,10 +137,9 @@ CONSISTENT_AT_FACES = (*CONSISTENT, held("automatic"))
 PLATE = Scene(
     "prm/verification/plate_with_hole_convergence.prm",
     "A plate with a hole, pulled; against a converged reference.",
-    (*(mesh(name, cells, truth=refined(1), rough=refined(0)) for name, cells in (
-        ("512", "8, 8"), ("1,920", "15, 16"), ("7,680", "30, 32"), ("30,720", "60, 64"))),
-     mesh("122,880", "120, 128", truth=refined(0))),
-    hole_methods(PAPER, coarse=4),
+    tuple(mesh(name, cells, truth=refined(0)) for name, cells in (
+        ("512", "8, 8"), ("1,920", "15, 16"), ("7,680", "30, 32"), ("30,720", "60, 64"), ("122,880", "120, 128"))),
+    hole_methods(PAPER, coarse=4, coarse_of_q2=4),
     (3e-2, 1e-2, 1e-3, 1e-4), "reference", carrier=CONSISTENT_AT_FACES)
 
 # Families of 3.01 spacings have no neighbours along z where cells are long in z, and the published form stops.
@@ -149,19 +149,19 @@ PARENTS = refined(-1)
 BLOCK = Scene(
     "prm/examples/block_with_hole.prm",
     "The plate as a thick block; against a converged reference.",
-    (mesh("1,536", "3, 4, 2", ONCE, truth=refined(1), rough=refined(0)),
+    (mesh("1,536", "3, 4, 2", ONCE, truth=refined(0)),
      mesh("3,840", "4, 5, 3", ONCE, truth=refined(0)),
      mesh("10,752", "6, 7, 4", ONCE, truth=refined(0), rough=PARENTS),
      mesh("23,040", "8, 9, 5", ONCE, truth=refined(0), rough=PARENTS),
      mesh("174,080", "16, 17, 10", ONCE, truth=PARENTS)),
-    tuple(method for method in hole_methods(PAPER_IN_3D, coarse=4)
+    tuple(method for method in hole_methods(PAPER_IN_3D, coarse=4, coarse_of_q2=1)
           if method.drawn and method.name not in ("energy form, layer", "correspondence, families")),
     (5e-2, 1e-2, 1e-3), "reference", carrier=CONSISTENT_AT_FACES)
 
 
-def collar(cells):
-    """A square of (0.5 m)^2 in a collar of six cells, (cells - 12)^2 inside."""
-    spacing = 0.5 / (cells - 12)
+def collar(cells, layers, free):
+    """A square about the same middle, free [m] wide in a collar of so many layers, of cells x cells."""
+    spacing = free / (cells - 2 * layers)
     return Resolution(f"{cells * cells:,}", (f"Mesh/Cells={cells}, {cells}",
                                              f"Mesh/Size={cells * spacing}, {cells * spacing}",
                                              f"Mesh/Corner={-cells * spacing / 2}, {-cells * spacing / 2}"))
@@ -173,7 +173,7 @@ MANUFACTURED = Scene(
     "prm/examples/tensor_manufactured_2d.prm",
     "A manufactured field in a plate without elastic symmetry; against the exact field. Bonds are held in a collar, "
     "finite elements and the consistent forms at the faces around it.",
-    (collar(24), collar(37), collar(62), collar(112), collar(212)),
+    tuple(collar(cells, 6, 0.5) for cells in (24, 37, 62, 112, 212)),
     (*finite_elements(TENSORS_AT_FACES),
      Method("consistent form", TENSORS_AT_FACES, accurate=True),
      Method("moment corrected", (TENSORS, "Material/Form=moment corrected")),
@@ -201,7 +201,7 @@ LAMINATE = Scene(
     "three layers of cells at the ends are given the reference's values.",
     (laminate("1,200", 2.5e-3, 1), laminate("4,760", 1.25e-3, 0), laminate("7,440", 1e-3, 0),
      laminate("29,760", 5e-4, 0)),
-    (*finite_elements(LAMINATE_AT_FACES),
+    (*finite_elements(LAMINATE_AT_FACES, coarse=3),
      Method("consistent form", LAMINATE_AT_FACES, accurate=True),
      Method("surface cure, collar", (TENSORS, "Material/Form=surface cure", *IN_COLLAR)),
      Method("surface cure, layer", (TENSORS, "Material/Form=surface cure", held("layer"))),
@@ -329,8 +329,8 @@ BAR = Scene(
     "prm/examples/hyperelastic_bar.prm",
     "A clamped bar of Saint Venant-Kirchhoff material, pulled to 1.3 times its length in three load steps; the largest "
     "error of the pull and of the strains at the middle, against finite elements of 360 x 84 cells. There the lateral "
-    "stretch is that of a long bar, sqrt(1 - nu (l^2 - 1)), to 5e-5 (other_error in the .csv). The paper's Newton's method "
-    "is the program's own: dynamic relaxation has no correspondence model.",
+    "stretch is that of a long bar, sqrt(1 - nu (l^2 - 1)), to 5e-5 (other_error in the .csv). The paper's Newton's "
+    "method is the program's own: dynamic relaxation has no correspondence model.",
     (mesh("156", "26, 6"), mesh("600", "50, 12"), mesh("2,400", "100, 24"), mesh("5,400", "150, 36")),
     (Method("FEM Q1", BAR_AT_FACES, "fem"),
      Method("correspondence, faces", BAR_AT_FACES),
@@ -340,6 +340,24 @@ BAR = Scene(
     (1e-2, 1e-3), common=("Solver/Load steps=3", "Boundary conditions/right/u_x=0.3*t"), carrier=BAR_AT_FACES,
     finest=("Mesh/Cells=360, 84", "Comparison/FEM=true"), errors=errors_of_bar)
 
+WAVE = Scene(
+    "prm/verification/standing_wave.prm",
+    "A standing wave, a period and an eighth of explicit dynamics, held in a collar; against the exact field at the "
+    "end. The program has no finite elements in motion: ratios are to the energy form. The published form with one "
+    "point is the paper's way.",
+    tuple(collar(cells + 14, 7, 1.) for cells in (25, 50, 100, 200)),
+    (Method("energy form", (EXTENDED, "Material/Form=energy")),
+     Method("energy form, exact parts", (EXTENDED, "Material/Form=energy", scheme("exact"))),
+     Method("paper's way", PAPER, "paper"),
+     Method("ordinary", (ORDINARY,)),
+     Method("ordinary, partial volume", (ORDINARY, scheme("partial volume"))),
+     Method("springs", (SPRINGS,)),
+     Method("springs, partial volume", (SPRINGS, scheme("partial volume"))),
+     Method("springs, exact parts", (SPRINGS, scheme("exact"))),
+     Method("tensors, one point", (TENSORS, "Material/Form=one point")),
+     Method("tensors, moment corrected", (TENSORS, "Material/Form=moment corrected"))),
+    (1e-1, 1e-2, 1e-3), base="energy form")
+
 SCENES = {"plate_with_hole": PLATE, "block_with_hole": BLOCK, "tensor_manufactured_2d": MANUFACTURED,
           "laminate_with_hole": LAMINATE, **PDBC, "tension_column": COLUMN, "graded_square": GRADED,
-          "hyperelastic_bar": BAR}
+          "hyperelastic_bar": BAR, "standing_wave": WAVE}
