@@ -11,18 +11,16 @@ The bytes a node are those of families, bonds and contact while steps are taken,
 """
 
 import argparse
-import os
 import re
 import shlex
 import statistics
-import subprocess
 import sys
-from pathlib import Path
+import tempfile
 
-from runs import ENVIRONMENT, add_arguments, run
+from runs import PAGE, add_arguments, execute, launcher, run
 
 SCENE = "tests/performance/dynamics.prm"
-LAMMPS_INPUT = Path(__file__).resolve().parent / "peridynamic_block.lammps"
+LAMMPS_INPUT = PAGE.parent / "peridynamic_block.lammps"
 CASES = [  # name, settings, style of LAMMPS
     ("bond based", ["Material/Model=bond based"], "pmb"),
     ("ordinary", ["Material/Model=ordinary"], "lps"),
@@ -50,14 +48,14 @@ def speed(summary):
 
 def run_lammps(options, style, bonds):
     """Bonds times steps a second of LAMMPS."""
-    command = shlex.split(options.mpirun) + ["-n", str(options.ranks)] if options.ranks > 1 else []
-    command += [options.lammps, "-in", str(LAMMPS_INPUT), "-log", "none"]
+    command = [*launcher(options), options.lammps, "-in", str(LAMMPS_INPUT), "-log", "none"]
     for name, value in (("n", options.size), ("steps", options.steps), ("style", style)):
         command += ["-var", name, str(value)]
-    done = subprocess.run(command, env={**os.environ, **ENVIRONMENT}, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(f"{shlex.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return bonds * options.steps / float(re.search(r"Loop time of ([0-9.e+-]+)", done.stdout).group(1))
+    with tempfile.TemporaryDirectory() as directory:
+        status, text = execute(command, directory=directory)
+    if status != 0:
+        sys.exit(f"{shlex.join(command)}\n{text[-2000:]}")
+    return bonds * options.steps / float(re.search(r"Loop time of ([0-9.e+-]+)", text).group(1))
 
 
 def main():
