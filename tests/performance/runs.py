@@ -28,6 +28,10 @@ class Run:
     output: str
     summary: dict = field(default_factory=dict)
     seconds: float = 0.
+    history: dict = field(default_factory=dict)  # columns of history.csv
+
+    def warnings(self):
+        return [line for line in self.output.splitlines() if line.startswith("warning")]
 
     def message(self):
         """The first line of what the program said of a failure."""
@@ -78,7 +82,16 @@ def run(options, scene, settings, check=False, timeout=None, may_fail=False):
             sys.exit(f"exit status {status} of {shlex.join(command)}\n{output}")
         path = Path(directory) / "summary.json"
         summary = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-        return Run(status, output, summary, seconds)
+        return Run(status, output, summary, seconds, read_history(Path(directory) / "history.csv"))
+
+
+def read_history(path):
+    """The columns of a history.csv as lists of numbers, by their names; empty when there is none."""
+    if not path.exists():
+        return {}
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]} if rows else {}
 
 
 def sized_mesh(directory, mesh, size):
