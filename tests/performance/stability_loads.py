@@ -74,8 +74,10 @@ def rotations(_options):
         yield Case(f"{degrees} degrees", model, [
             *LARGE_STRAIN[model], "Mesh/Cells=12, 12", "Solver/Name=quasi static", f"Solver/Load steps={degrees // 15}",
             "Solver/Tolerance=1e-10", *held("ends", "left, right", *turned[0]),
+            # Values at the nodes themselves, where nodes are held.
+            *([] if "Material/Form=consistent" in LARGE_STRAIN[model] else ["Boundary conditions/Layers=2"]),
             f"Comparison/Exact u_x={turned[1][0]}", f"Comparison/Exact u_y={turned[1][1]}"],
-            SQUARE, bound=1e-6, words=("rotation", "small"), quick=degrees == 90 and model in ("energy", "bond based"))
+            SQUARE, bound=1e-6, words=("small rotations",), quick=degrees == 90 and model in ("energy", "bond based"))
 
 
 def bends(_options):
@@ -146,25 +148,31 @@ def two_bodies(options):
                 f"Comparison/Exact u_x={strain}*(x-if(x<{middle!r},0,{end!r}))",
                 f"Comparison/Exact u_y=-{strain / 3!r}*y"]
         near = f"{gap_cells} cell{'s' * (gap_cells > 1)} apart"
-        yield Case(f"both held, {near}", model, [*mesh, *held("right", "right", "0", None)], SQUARE, bound=0.1,
-                   words=("surface", "gap", "across"), must=GOOD if gap_cells > 3 else (),
+        yield Case(f"both held, {near}", model, [*mesh, *held("right", "right", "0", None)], SQUARE, bound=0.2,
+                   words=("share no face",), must=GOOD if gap_cells > 3 else (),
                    quick=model in ("consistent", "energy"))
-        yield Case(f"one loose, {near}", model, mesh, SQUARE, bound=0.1, must=("refused", "stopped"),
-                   words=("gap", "across"), quick=model in ("consistent", "energy"))
+        yield Case(f"one loose, {near}", model, mesh, SQUARE, bound=0., words=("share no face",),
+                   must=("refused",) if gap_cells > 3 else SAID, quick=model in ("consistent", "energy"))
+
+
+def drift(run, _base):
+    """Of the energy that is there from that put in."""
+    return abs(run.summary["energy"]["drift"])
 
 
 def loose_nodes(_options):
-    """A corner cell that precracks cut off all others, under tension: the rest must stand and the cell be told."""
+    """Corner cells that precracks cut off all others, without a load of their own or pulled away."""
     for model, solver in itertools.product(("ordinary", "energy", "paper", "bond based", "tensor involved", "family"),
                                            ("quasi static", "dynamic relaxation")):
         if model == "family" and solver == "dynamic relaxation":
             continue
-        yield Case(f"corner cut off, {solver}", model, [
-            *MODELS[model], f"Solver/Name={solver}", "Precracks/corner/Points=0.7, 1; 0.7, 0.7; 1, 0.7",
-            "Solver/Maximum iterations=20000",
-            *held("held", "left", "0", "0"), *held("moved", "bottom", None, "0"),
-            "Boundary conditions/pulled/Boundary=right", "Boundary conditions/pulled/t_x=1e4"],
-            SQUARE, bound=0.05, figure=lambda run, _: abs(run.summary["energy"]["drift"]))
+        for name, boundary in (("loose corner", "bottom"), ("pulled corner", "right")):
+            section = "Boundary conditions/pulled"
+            yield Case(f"{name}, {solver}", model, [
+                *MODELS[model], f"Solver/Name={solver}", "Precracks/corner/Points=0.7, 1; 0.7, 0.7; 1, 0.7",
+                *held("held", "left", "0", "0"), f"{section}/Boundary={boundary}", f"{section}/t_x=1e4"],
+                SQUARE, bound=0.05, words=("hang loose",), must=SAID if name == "pulled corner" else (),
+                quick=solver == "quasi static" and model in ("energy", "bond based"))
 
 
 STUDIES = [
@@ -172,7 +180,7 @@ STUDIES = [
     Study("held rotation", "l2 error", "1e-6: solved to 1e-10, rigid rotation is exact", exact_error, rotations),
     Study("far bending", "energy to that of ten load steps", "1e-6: solved to 1e-8", None, bends),
     Study("load reversal", "reactions' share that is not odd or left", "1e-7: solved to 1e-10", reversal, reversals),
-    Study("two bodies", "l2 error", "10 %: surfaces of few cells; a loose body must be refused or stop the run",
+    Study("two bodies", "l2 error", "20 %: surfaces of few cells; a loose body must be refused",
           exact_error, two_bodies),
-    Study("loose nodes", "energy drift", "5 %", None, loose_nodes),
+    Study("loose nodes", "energy drift", "5 %; loads on loose nodes must be told", drift, loose_nodes),
 ]
