@@ -12,12 +12,12 @@
 
 namespace perideal
 {
-  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex thin_cells)
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin)
   {
     const bool consistent = parameters.model.is_consistent();
-    if (thin_cells > 0)
+    if (n_thin > 0)
       return (parameters.model.is_tensor_involved() ? "moment corrected form: " : "energy form: ") +
-             grouped(thin_cells) +
+             grouped(n_thin) +
              " cells lie in parts one cell thick, across which the consistent form has no gradient" +
              (consistent ? "; two cells would do" : "");
     const std::string why =
@@ -28,6 +28,14 @@ namespace perideal
            (parameters.model.has_forms() ? parameters.model.form + " form" :
                                            parameters.model.model + " model") +
            " is off by per cents at surfaces";
+  }
+
+  template <int dim>
+  GlobalIndex thin_cells(const SceneState<dim> &scene)
+  {
+    const auto &deficient = scene.gradient->deficient();
+    return dealii::Utilities::MPI::sum<GlobalIndex>(std::count(deficient.begin(), deficient.end(), true),
+                                                    scene.nodes->communicator);
   }
 
   namespace
@@ -51,6 +59,94 @@ namespace perideal
               result = std::min(result, std::abs(determinant(edges)));
             }
       return dealii::Utilities::MPI::min(result, mesh.triangulation.get_communicator());
+    }
+
+    /// Bonds that are missing at surfaces.
+    template <int dim>
+    void warn_of_surfaces(const SceneParameters    &parameters,
+                          const SceneState<dim>    &scene,
+                          std::vector<std::string> &result)
+    {
+      const ModelParameters &model = parameters.model;
+      if (model.is_consistent() || scene.ghosts)
+        return;
+      const double whole   = lattice_family<dim>(parameters.nodes.horizon_factor).size;
+      const double missing = 1. - scene.families->statistics().mean / whole;
+      const std::string share =
+        "families lack " + short_number(std::round(100. * std::max(0., missing))) + " % of their bonds on average";
+      if (model.model == "ordinary" || (model.model == "bond based" && !model.compensates()))
+        result.push_back("the " + model.model + " model has no surface correction: " + share +
+                         ", errors of several per cent are usual");
+      // A square of 12 x 12 cells at a horizon factor of 3.01 lacks as much.
+      if (missing > 0.28)
+        result.push_back("the body is thin for its horizon: " + share +
+                         ", and bending may be off by tens of per cent: take more cells across it, or Material/Form = "
+                         "consistent");
+    }
+
+    /// What models do in motion that solids do not.
+    template <int dim>
+    void warn_of_motion(const SceneParameters    &parameters,
+                        const SceneState<dim>    &scene,
+                        std::vector<std::string> &result)
+    {
+      if (!parameters.solver.is_dynamic())
+        return;
+      const ModelParameters &model = parameters.model;
+      if (model.model == "extended ordinary" && model.form == "paper")
+        result.push_back("the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
+                         "Material/Form = energy keeps what was put in");
+      const auto &conditions = scene.loads.conditions;
+      if (model.is_tensor_involved() &&
+          std::none_of(conditions.begin(), conditions.end(), [](const auto &c) { return c.prescribes_displacement(); }))
+        result.push_back("bonds with tensors resist rotation at surfaces: a body that nothing holds does not turn freely");
+    }
+
+    /// Largest ratio of the sizes of two cells that share a face.
+    template <int dim>
+    double largest_jump(const Mesh<dim> &mesh)
+    {
+      double result = 1;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+              {
+                const double ratio = cell->neighbor(f)->measure() / cell->measure();
+                result             = std::max({result, ratio, 1. / ratio});
+              }
+      return dealii::Utilities::MPI::max(std::pow(result, 1. / dim), mesh.triangulation.get_communicator());
+    }
+
+    /// Bonds that count whole cells where no weights make up for it.
+    template <int dim>
+    void warn_of_whole_cells(const SceneParameters    &parameters,
+                             const SceneState<dim>    &scene,
+                             std::vector<std::string> &result)
+    {
+      const ModelParameters &model   = parameters.model;
+      const bool             springs = model.model == "bond based" || model.model == "ordinary";
+      if (parameters.quadrature.scheme != "one point" ||
+          !(springs || model.form == "paper" || model.form == "one point"))
+        return;
+      const std::string advice = "take Quadrature/Scheme = partial volume | exact, or Material/Form = " +
+                                 std::string(model.is_tensor_involved() ? "moment corrected" : "energy") +
+                                 " | consistent";
+      const double jump = largest_jump(*scene.mesh);
+      if (jump > 1.5)
+        result.push_back("cell sizes jump by a factor of " + short_number(jump) +
+                         " between neighbours, of which families here count whole cells or none: expect "
+                         "errors of tens of per cent; " +
+                         advice);
+      const double factor     = parameters.nodes.horizon_factor;
+      const double anisotropy = springs ? lattice_anisotropy<dim>(factor) : 0.;
+      if (!(std::abs(anisotropy) < 0.15))
+        result.push_back("at a horizon factor of " + short_number(factor) + " bonds make regular cells " +
+                         (std::isfinite(anisotropy) ?
+                            short_number(100. * std::abs(anisotropy)) + " % too " +
+                              (anisotropy > 0 ? "stiff" : "soft") + " along the mesh, for their shear" :
+                            "of no shear stiffness") +
+                         ": take another factor, such as 3.01, " + advice.substr(5));
     }
 
     template <int dim>
@@ -115,10 +211,21 @@ namespace perideal
     const bool               consistent = parameters.model.is_consistent();
     const auto               statistics = scene.families->statistics();
     const unsigned int       wanted     = dim == 2 ? 5 : 15;
-    if (!consistent && !parameters.model.is_correspondence() && statistics.min < wanted)
+    if (!consistent && statistics.min < wanted)
       result.push_back("the smallest family has " + std::to_string(statistics.min) +
                        " members, fewer than the " + std::to_string(wanted) +
-                       " moment conditions: enlarge Nodes/Horizon factor");
+                       (parameters.model.is_correspondence() ? " that a gradient and what it misses take" :
+                                                               " moment conditions") +
+                       ": enlarge Nodes/Horizon factor");
+    if (parameters.model.is_correspondence() && consistent)
+      if (const GlobalIndex thin = thin_cells(scene); thin > 0)
+        result.push_back(grouped(thin) + " cells lie in parts one cell thick, across which they have no gradient: take "
+                                         "two cells, or Material/Form = family");
+    if (scene.parts->n_bonds_across > 0)
+      result.push_back(grouped(scene.parts->n_bonds_across) +
+                       " bonds join parts of the mesh that share no face, across gaps narrower than the horizon: they "
+                       "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
+                       "into it");
     const double nu     = parameters.material.body.poisson_ratio;
     const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
     if (!stress && nu > 0.45)
@@ -140,8 +247,8 @@ namespace perideal
                              " here: " + scene.mesh->material_name(solid.first) + " is not given its " +
                              short_number(given.poisson_ratio));
         }
-    if (parameters.model.model == "ordinary" && !scene.ghosts)
-      result.push_back("the ordinary model has no surface correction: errors of several per cent are usual");
+    warn_of_surfaces(parameters, scene, result);
+    warn_of_motion(parameters, scene, result);
     if (consistent && (parameters.loads.displacement_treatment == "layer" ||
                        parameters.loads.displacement_treatment == "reference"))
       result.push_back("held nodes take from the consistent form the accuracy that face values have");
@@ -161,11 +268,13 @@ namespace perideal
                            "ordinary, Form = energy, whose families are not");
       }
     warn_of_solids(parameters, scene, result);
+    warn_of_whole_cells(parameters, scene, result);
     warn_of_cells(scene, result);
     return result;
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
+  template GlobalIndex              thin_cells(const SceneState<dim> &);                                     \
   template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)

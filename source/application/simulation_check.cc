@@ -62,10 +62,7 @@ namespace perideal
       {
         if (!scene.gradient)
           make_gradient();
-        const auto       &deficient  = scene.gradient->deficient();
-        const GlobalIndex thin_cells = dealii::Utilities::MPI::sum<GlobalIndex>(
-          std::count(deficient.begin(), deficient.end(), true), communicator);
-        screen << "suits       " << suitable_form(parameters, thin_cells) << '\n';
+        screen << "suits       " << suitable_form(parameters, thin_cells(scene)) << '\n';
       }
     for (const std::string &warning : warnings(parameters, scene))
       screen << "warning     " << warning << '\n';

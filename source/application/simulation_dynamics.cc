@@ -184,6 +184,7 @@ namespace perideal
     try
       {
         reached_end = run_steps(dynamics, time_step);
+        warn_of_large_rotations();
       }
     catch (const ComputationError &)
       {

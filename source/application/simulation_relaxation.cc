@@ -128,6 +128,8 @@ namespace perideal
       {
         done = take_load_steps(path);
         warn_of_lost_thickness();
+        warn_of_large_rotations();
+        warn_of_loose_nodes(path.n_floating());
         if (scene.crack_tracker)
           scene.crack_tracker->write_paths(parameters.output_directory);
       }

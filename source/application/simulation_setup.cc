@@ -164,7 +164,8 @@ namespace perideal
   void Simulation<dim>::weigh_bonds()
   {
     const Timings::Scope scope(timings, "setup");
-    const auto           solid_of = solid_of_model();
+    find_parts();
+    const auto solid_of = solid_of_model();
     if (parameters.model.is_linear_only() || parameters.model.is_consistent() ||
         (needs_gradient(parameters.field_names()) &&
          !(parameters.model.is_correspondence() && parameters.solver.is_nonlinear_static())))
@@ -214,6 +215,12 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::find_free_motions()
   {
+    find_parts();
+    if (scene.parts->n_bodies > 1)
+      {
+        check_bodies_held();
+        return;
+      }
     // Which motions the held components allow: those of nodes, or of faces where images or face values hold.
     const auto         box = dealii::GridTools::compute_bounding_box(scene.mesh->triangulation);
     dealii::Point<dim> lower, upper;

@@ -126,10 +126,26 @@ namespace perideal
     return result;
   }
 
+  template <int dim>
+  double lattice_anisotropy(const double horizon_factor)
+  {
+    const FamilyView<dim> family = lattice_family<dim>(horizon_factor);
+    double                axial = 0, oblique = 0;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        const double x = family.bond[0][j], y = family.bond[1][j];
+        const double cube = std::pow(family.length_square[j], 1.5);
+        axial += x * x * x * x / cube;
+        oblique += x * x * y * y / cube;
+      }
+    return axial / (3. * oblique) - 1.;
+  }
+
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
   template FamilyView<dim> lattice_family(const double);                                                     \
   template double smallest_wave_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);      \
-  template double smallest_bond_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);
+  template double smallest_bond_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);      \
+  template double lattice_anisotropy<dim>(const double);
   PERIDEAL_INSTANTIATE(2)
   PERIDEAL_INSTANTIATE(3)
 #undef PERIDEAL_INSTANTIATE

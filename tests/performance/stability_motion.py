@@ -40,13 +40,15 @@ def drift(run, _base):
     return abs(run.summary["energy"]["drift"])
 
 
+NO_ENERGY = ("follow from no energy",)
 VIBRATION = velocities("sin(3*x)*cos(2*y)", "cos(2*x)*sin(3*y)")
 
 
 def time_steps(options):
     for model, share in itertools.product(MOVING, (0.5, 0.8, 0.9, 0.95, 0.99, 1.01, 1.05, 1.1, 1.2)):
         yield Case(f"{share}", model, [*motion(options, model, 16, share, 4000), *VIBRATION], SQUARE, bound=1e-3,
-                   must=GOOD if share < 1 else ("refused", "stopped"),
+                   # The largest stable step is estimated with a margin: 1.01 times it may be stable.
+                   words=NO_ENERGY, must=() if model == "paper" or share == 1.01 else GOOD if share < 1 else ("stopped",),
                    quick=share in (0.95, 1.01) and model in ("bond based", "energy"))
 
 
@@ -54,7 +56,7 @@ def long_runs(options):
     for model in MOVING:
         steps = 20000 if options.quick else 1000000
         yield Case(f"{steps:,} steps", model, [*motion(options, model, 8, 0.9, steps), *VIBRATION], SQUARE, bound=1e-3,
-                   must=GOOD if model != "paper" else (), quick=model in ("bond based", "energy"))
+                   words=NO_ENERGY, must=GOOD if model != "paper" else (), quick=model in ("bond based", "energy"))
 
 
 NOISE = velocities("sin(1e5*x+3e4*y)+0.3*sin(7e4*x*y)", "sin(5e4*x-9e4*y)+0.3*cos(8e4*x*y)")
@@ -64,13 +66,14 @@ def noises(options):
     for model, size in itertools.product(MOVING, (0.1, 1, 10)):
         noise = [setting.replace("=", f"={size}*(", 1) + ")" for setting in NOISE]
         yield Case(f"velocities of {size / WAVE_SPEED:g} c", model, [*motion(options, model, 16, 0.9, 5000), *noise], SQUARE,
-                   bound=1e-3, quick=size == 1 and model in ("bond based", "energy"))
+                   bound=size / WAVE_SPEED, words=NO_ENERGY, quick=size == 1 and model in ("bond based", "energy"))
 
 
-def stretch_and_drift(run, _base):
-    """Largest stretch of the diagonals, or drift of the energy."""
+def strain_and_drift(run, _base):
+    """Largest stretch of the diagonals, share of strain in the energy, or drift of the energy."""
+    strain = [value / run.history["external work [J]"][-1] for value in run.history["strain energy [J]"]]
     lines = [values for name, values in run.history.items() if name.startswith("stretch of")]
-    return max(max(abs(value - 1) for values in lines for value in values), drift(run, None))
+    return max(max(abs(value - 1) for values in lines for value in values), *strain, drift(run, None))
 
 
 def spins(options):
@@ -84,7 +87,7 @@ def spins(options):
             *motion(options, model, 10, 0.8, steps), *velocities(f"-{rate!r}*(y-0.5)", f"{rate!r}*(x-0.5)"),
             "Gauges/rising/From=0.1, 0.1", "Gauges/rising/To=0.9, 0.9",
             "Gauges/falling/From=0.1, 0.9", "Gauges/falling/To=0.9, 0.1"],
-            SQUARE, bound=1e-3, words=("rotation", "small"), quick=turns == 1 and model in ("bond based", "energy"))
+            SQUARE, bound=1e-3, words=("rotation", *NO_ENERGY), quick=turns == 1 and model in ("bond based", "energy"))
 
 
 def momentum_and_drift(run, _base):
@@ -98,9 +101,11 @@ def breaks(options):
     for model in MOVING:
         yield Case("a corner cell shot off", model, [
             *motion(options, model, 10, 0.5, 2000), *corner, "Material/Critical stretch=1e-3", "Contact/Enabled=false"],
-            SQUARE, bound=1e-2, figure=momentum_and_drift, must=GOOD, quick=model in ("bond based", "energy"))
+            SQUARE, bound=1e-2, figure=momentum_and_drift, words=NO_ENERGY,
+            must=GOOD if model != "paper" else (), quick=model in ("bond based", "energy"))
         yield Case("every bond breaks", model, [
-            *MOVING[model], "Mesh/Cells=8, 8, 4", "Material/Fracture energy=1e-6", "Initial conditions/v_z=1000*z"],
+            *MOVING[model], "Mesh/Cells=8, 8, 4", "Material/Fracture energy=1e-6",
+            *(f"Initial conditions/v_{axis}=1000*{axis}" for axis in "xyz")],
             "prm/examples/fragmenting_block.prm", must=("stopped",), figure=drift, quick=model in ("bond based", "energy"))
         yield Case("a torn strip", model, MOVING[model], "tests/scenes/torn_strip.prm", bound=1e-2, figure=drift)
 
@@ -108,8 +113,8 @@ def breaks(options):
 STUDIES = [
     Study("time step", "energy drift", "1e-3; beyond the stable step the run must stop", drift, time_steps),
     Study("many steps", "energy drift", "1e-3", drift, long_runs),
-    Study("noise", "energy drift", "1e-3", drift, noises),
-    Study("spin", "stretch of the diagonals or energy drift", "1e-3: centrifugal forces stretch by 1e-4", stretch_and_drift,
-          spins),
+    Study("noise", "energy drift", "v/c: what of the force is not linear", drift, noises),
+    Study("spin", "stretch, strain's share of the energy, or its drift", "1e-3: centrifugal forces strain by 1e-4",
+          strain_and_drift, spins),
     Study("breaking", "energy drift, momentum", "1e-2; a body of which nothing is left stops the run", drift, breaks),
 ]

@@ -9,6 +9,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <complex>
 #include <vector>
 
 namespace perideal::test
@@ -40,6 +41,20 @@ namespace perideal::test
     dealii::Vector<double>     values;
     dealii::FullMatrix<double> vectors;
     matrix.compute_eigenvalues_symmetric(-1., 1e30, 0., values, vectors);
+    return values;
+  }
+
+  /// The eigenvalues of a small operator that need not be symmetric. Collective.
+  template <int dim>
+  std::vector<std::complex<double>> complex_spectrum(const BondOperator<dim> &bonds)
+  {
+    const auto                       entries = dense_matrix(bonds);
+    dealii::LAPACKFullMatrix<double> matrix(entries.m());
+    matrix = entries;
+    matrix.compute_eigenvalues();
+    std::vector<std::complex<double>> values(entries.m());
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = matrix.eigenvalue(k);
     return values;
   }
 } // namespace perideal::test

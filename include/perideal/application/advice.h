@@ -11,9 +11,13 @@
 namespace perideal
 {
   /// Which form suits the scene, and why, in one line.
-  /// @param thin_cells cells in parts of the body that are one cell thick, where
+  /// @param n_thin cells in parts of the body that are one cell thick, where
   ///   the face gradient has no linear fit
-  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex thin_cells);
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin);
+
+  /// Cells of all ranks that have no gradient across the part that they lie in. Needs scene.gradient. Collective.
+  template <int dim>
+  GlobalIndex thin_cells(const SceneState<dim> &scene);
 
   /// What is likely to spoil the result or to stop the solver, one line each. Collective.
   template <int dim>

@@ -15,6 +15,7 @@
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/no_fail_zones.h>
 #include <perideal/mesh/mesh.h>
+#include <perideal/neighbourhood/connected_parts.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
@@ -76,6 +77,8 @@ namespace perideal
     std::shared_ptr<const TractionTransfer<dim>> transfer;
     std::shared_ptr<const PrintedTransfer<dim>>  printed_transfer;
     std::shared_ptr<Families<dim>>               families;
+    /// What of the body hangs together.
+    std::optional<ConnectedParts<dim>> parts;
 
     /// What the model made of the bonds; the consistent form has no such.
     std::unique_ptr<LinearModel<dim>>  model;

@@ -59,6 +59,14 @@ namespace perideal
     void make_mesh();
     void make_nodes_and_families();
     void find_free_motions();
+    /// What of the body hangs together, where that is not known yet. Collective.
+    void find_parts();
+    /// @throws InputError when one of several bodies can move as a whole. Collective.
+    void check_bodies_held() const;
+    /// Tells when bonds with tensors have turned further than they know. Collective.
+    void warn_of_large_rotations();
+    /// Tells of nodes that hang on nothing any more.
+    void warn_of_loose_nodes(const GlobalIndex n_loose);
     void prepare_comparisons();
     void make_gradient();
     void weigh_bonds();
