@@ -68,7 +68,7 @@ namespace perideal
                           std::vector<std::string> &result)
     {
       const ModelParameters &model = parameters.model;
-      if (model.is_consistent() || scene.ghosts)
+      if ((model.is_consistent() && !model.is_correspondence()) || scene.ghosts)
         return;
       const double whole   = lattice_family<dim>(parameters.nodes.horizon_factor).size;
       const double missing = 1. - scene.families->statistics().mean / whole;
@@ -77,11 +77,10 @@ namespace perideal
       if (model.model == "ordinary" || (model.model == "bond based" && !model.compensates()))
         result.push_back("the " + model.model + " model has no surface correction: " + share +
                          ", errors of several per cent are usual");
-      // A square of 12 x 12 cells at a horizon factor of 3.01 lacks as much.
-      if (missing > 0.28)
-        result.push_back("the body is thin for its horizon: " + share +
-                         ", and bending may be off by tens of per cent: take more cells across it, or Material/Form = "
-                         "consistent");
+      if (scene.families->statistics().max < whole)
+        result.push_back("the body is thin for its horizon, nowhere twice as thick: " + share +
+                         ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
+                         "extended ordinary with Form = consistent in statics");
     }
 
     /// What models do in motion that solids do not.

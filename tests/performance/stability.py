@@ -23,6 +23,7 @@ import runs
 import stability_cases
 import stability_loads
 import stability_motion
+import stability_spectrum
 
 
 STUDIES = stability_cases.STUDIES + stability_loads.STUDIES + stability_motion.STUDIES
@@ -40,7 +41,6 @@ class Row:
     figure: float | None
     bound: float
     says: str
-    run: object = None
 
     def fails(self):
         return self.verdict in FAILURES or self.verdict.startswith("not as asked")
@@ -75,6 +75,8 @@ def run_case(options, study, case, bases):
         bases[case.model] = (run, figure if figure is not None else math.nan)
         base_figure = bases[case.model][1]
     bound = max(case.bound, ROUGH if case.base and case.growth else case.growth * base_figure)
+    if case.beside_fem and run.status == 0:
+        bound = max(bound, 2 * run.summary["errors"]["fem"]["own error against exact"]["l2"])
     verdict, says = judge(case, run, figure, bound)
     if case.must and verdict not in case.must and verdict not in FAILURES:
         verdict, says = f"not as asked: {verdict}", says or f"asked for: {', '.join(case.must)}"
@@ -150,6 +152,9 @@ def main():
     studies = [study for study in STUDIES if study.name in options.studies]
     with tempfile.TemporaryDirectory() as options.folder:
         rows = [row for study in studies for row in run_study(options, study)]
+    if "eigenvalues" in options.studies:
+        studies.append(stability_spectrum.STUDY)
+        rows += stability_spectrum.rows(options, Row)
     options.output.mkdir(parents=True, exist_ok=True)
     runs.write_csv(options.output / "stability.csv",
                    ["study", "value", "model", "figure", "bound", "verdict", "says"],

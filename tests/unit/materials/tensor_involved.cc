@@ -315,3 +315,13 @@ TEST(Lattice, BondsPushSidewaysAboveTheirOwnPoissonRatio)
   EXPECT_NEAR(stiffness(0.22), (3 - 9 * 0.22) / (15 + 3 * 0.22), 1e-13);
   EXPECT_NEAR(stiffness(0.4), (3 - 9 * 0.4) / (15 + 3 * 0.4), 1e-13);
 }
+
+TEST(Lattice, AnisotropyOfSprings)
+{
+  // Neighbours along the mesh at 1 and 2, and the diagonal ones: 2 + 4/(2 sqrt 2) + 4 against 4/(2 sqrt 2).
+  EXPECT_NEAR(lattice_anisotropy<2>(2.01), (6. + std::sqrt(2.)) / (3. * std::sqrt(2.)) - 1., 1e-13);
+  // Round families come near the sphere; one of nearest neighbours has no shear stiffness.
+  EXPECT_LT(std::abs(lattice_anisotropy<2>(12.)), 0.02);
+  EXPECT_LT(std::abs(lattice_anisotropy<3>(8.)), 0.02);
+  EXPECT_FALSE(std::isfinite(lattice_anisotropy<2>(1.01)));
+}
