@@ -70,17 +70,18 @@ namespace perideal
       const ModelParameters &model = parameters.model;
       if ((model.is_consistent() && !model.is_correspondence()) || scene.ghosts)
         return;
-      const double whole   = lattice_family<dim>(parameters.nodes.horizon_factor).size;
-      const double missing = 1. - scene.families->statistics().mean / whole;
-      const std::string share =
-        "families lack " + short_number(std::round(100. * std::max(0., missing))) + " % of their bonds on average";
+      const double      whole   = lattice_family<dim>(parameters.nodes.horizon_factor).size;
+      const double      missing = 1. - scene.families->statistics().mean / whole;
+      const std::string share   = "families lack " + short_number(std::round(100. * std::max(0., missing))) +
+                                " % of their bonds on average";
       if (model.model == "ordinary" || (model.model == "bond based" && !model.compensates()))
         result.push_back("the " + model.model + " model has no surface correction: " + share +
                          ", errors of several per cent are usual");
       if (scene.families->statistics().max < whole)
-        result.push_back("the body is thin for its horizon, nowhere twice as thick: " + share +
-                         ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
-                         "extended ordinary with Form = consistent in statics");
+        result.push_back(
+          "the body is thin for its horizon, nowhere twice as thick: " + share +
+          ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
+          "extended ordinary with Form = consistent in statics");
     }
 
     /// What models do in motion that solids do not.
@@ -93,12 +94,15 @@ namespace perideal
         return;
       const ModelParameters &model = parameters.model;
       if (model.model == "extended ordinary" && model.form == "paper")
-        result.push_back("the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
-                         "Material/Form = energy keeps what was put in");
+        result.push_back(
+          "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
+          "Material/Form = energy keeps what was put in");
       const auto &conditions = scene.loads.conditions;
-      if (model.is_tensor_involved() &&
-          std::none_of(conditions.begin(), conditions.end(), [](const auto &c) { return c.prescribes_displacement(); }))
-        result.push_back("bonds with tensors resist rotation at surfaces: a body that nothing holds does not turn freely");
+      if (model.is_tensor_involved() && std::none_of(conditions.begin(), conditions.end(), [](const auto &c) {
+            return c.prescribes_displacement();
+          }))
+        result.push_back(
+          "bonds with tensors resist rotation at surfaces: a body that nothing holds does not turn freely");
     }
 
     /// Largest ratio of the sizes of two cells that share a face.
@@ -218,13 +222,15 @@ namespace perideal
                        ": enlarge Nodes/Horizon factor");
     if (parameters.model.is_correspondence() && consistent)
       if (const GlobalIndex thin = thin_cells(scene); thin > 0)
-        result.push_back(grouped(thin) + " cells lie in parts one cell thick, across which they have no gradient: take "
-                                         "two cells, or Material/Form = family");
+        result.push_back(grouped(thin) +
+                         " cells lie in parts one cell thick, across which they have no gradient: take "
+                         "two cells, or Material/Form = family");
     if (scene.parts->n_bonds_across > 0)
-      result.push_back(grouped(scene.parts->n_bonds_across) +
-                       " bonds join parts of the mesh that share no face, across gaps narrower than the horizon: they "
-                       "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
-                       "into it");
+      result.push_back(
+        grouped(scene.parts->n_bonds_across) +
+        " bonds join parts of the mesh that share no face, across gaps narrower than the horizon: they "
+        "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
+        "into it");
     const double nu     = parameters.material.body.poisson_ratio;
     const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
     if (!stress && nu > 0.45)

@@ -69,15 +69,15 @@ namespace perideal
       problem = "the energy that is there is not what was put in";
     if (problem.empty())
       return;
-    const bool has_energy = !(parameters.model.model == "extended ordinary" && parameters.model.form == "paper");
-    throw ComputationError(problem + ": step " + std::to_string(dynamics.step()) + ", t = " +
-                           short_number(dynamics.time()) + " s, fastest is node " + fastest_node(dynamics) +
-                           "\n  likely cause: " +
-                           (has_energy ? "" : "the paper's forces, which follow from no energy and let motions grow, or ") +
-                           "an unstable time step; the largest stable one is " +
-                           short_number(summary["solver"]["stable_time_step"].template get<double>()) +
-                           " s\n  advice: set " + (has_energy ? "" : "Material/Form = energy, or ") +
-                           "Solver/Time step = 0");
+    const bool has_energy =
+      !(parameters.model.model == "extended ordinary" && parameters.model.form == "paper");
+    throw ComputationError(
+      problem + ": step " + std::to_string(dynamics.step()) + ", t = " + short_number(dynamics.time()) +
+      " s, fastest is node " + fastest_node(dynamics) + "\n  likely cause: " +
+      (has_energy ? "" : "the paper's forces, which follow from no energy and let motions grow, or ") +
+      "an unstable time step; the largest stable one is " +
+      short_number(summary["solver"]["stable_time_step"].template get<double>()) + " s\n  advice: set " +
+      (has_energy ? "" : "Material/Form = energy, or ") + "Solver/Time step = 0");
   }
 
   template <int dim>

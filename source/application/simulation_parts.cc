@@ -51,12 +51,14 @@ namespace perideal
           continue;
         std::ostringstream place;
         place << centre;
-        throw InputError("the mesh has " + std::to_string(scene.parts->n_bodies) +
-                         " bodies that nothing joins, and the conditions leave a rigid-body motion of the one about (" +
-                         place.str() + ") free: " + RigidBodyMotions<dim>::describe(free))
+        throw InputError(
+          "the mesh has " + std::to_string(scene.parts->n_bodies) +
+          " bodies that nothing joins, and the conditions leave a rigid-body motion of the one about (" +
+          place.str() + ") free: " + RigidBodyMotions<dim>::describe(free))
           .parameter("Boundary conditions")
-          .hint("hold each of them, or mesh them so that they share faces; Rigid body motions = remove serves "
-                "a single body");
+          .hint(
+            "hold each of them, or mesh them so that they share faces; Rigid body motions = remove serves "
+            "a single body");
       }
   }
 
@@ -84,8 +86,9 @@ namespace perideal
     largest = dealii::Utilities::MPI::max(largest, communicator);
     // Taken for small, a rotation by w stretches by w^2/2: 0.5 % here.
     if (largest > 0.1)
-      screen << "warning     the ends of bonds have moved against each other by up to " << short_number(largest)
-             << " times their length: bonds with tensors know small rotations only" << std::endl;
+      screen << "warning     the ends of bonds have moved against each other by up to "
+             << short_number(largest) << " times their length: bonds with tensors know small rotations only"
+             << std::endl;
   }
 
   template <int dim>
@@ -94,10 +97,11 @@ namespace perideal
     if (n_loose == 0)
       return;
     summary["damage"]["floating_nodes"] = n_loose;
-    screen << "warning     " << grouped(n_loose)
-           << " nodes hang loose, held by weak springs where they came loose: loads on them move them as far as "
-              "these give"
-           << std::endl;
+    screen
+      << "warning     " << grouped(n_loose)
+      << " nodes hang loose, held by weak springs where they came loose: loads on them move them as far as "
+         "these give"
+      << std::endl;
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \

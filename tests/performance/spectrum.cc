@@ -14,10 +14,11 @@
 #include <iostream>
 #include <memory>
 
-// Eigenvalues of free bodies: of the correspondence model by the family's gradient (VNOSB fig. 2), with and without
-// the penalty (21)-(23), by the radius of the horizon; then of every model, on squares and cubes and on distorted
-// ones: zero modes, eigenvalues below zero, the first behind the rigid-body motions, the lowest and the largest
-// imaginary part, these over the largest. The operator of the paper's form is not symmetric: real parts.
+// Eigenvalues of free bodies: of the correspondence model by the family's gradient (VNOSB fig. 2), with and
+// without the penalty (21)-(23), by the radius of the horizon; then of every model, on squares and cubes and
+// on distorted ones: zero modes, eigenvalues below zero, the first behind the rigid-body motions, the lowest
+// and the largest imaginary part, these over the largest. The operator of the paper's form is not symmetric:
+// real parts.
 //
 //     performance_spectrum [models]    only the second table
 
@@ -74,9 +75,12 @@ namespace
       {
         const bool                       by_faces = parameters.is_consistent();
         std::shared_ptr<FaceValues<dim>> values   = by_faces ? std::make_shared<FaceValues<dim>>() : nullptr;
-        const auto                       rows     = std::make_shared<CorrespondenceRows<dim>>(
-          body.families, by_faces ? gradient : nullptr, values, create_correspondence<dim>(parameters), solid_of);
-        const LawsByMaterial<dim> laws = {{0, create_law<dim>("linear elastic", solid)}};
+        const auto                       rows     = std::make_shared<CorrespondenceRows<dim>>(body.families,
+                                                                    by_faces ? gradient : nullptr,
+                                                                    values,
+                                                                    create_correspondence<dim>(parameters),
+                                                                    solid_of);
+        const LawsByMaterial<dim>        laws     = {{0, create_law<dim>("linear elastic", solid)}};
         return std::make_shared<CorrespondenceTangent<dim>>(body.families, rows, laws);
       }
     if (parameters.is_consistent())
@@ -119,11 +123,12 @@ namespace
     const double largest = values.back();
     const auto   is_zero = [&](const double value) { return std::abs(value) < round_off * largest; };
     result.n_zero        = std::count_if(values.begin(), values.end(), is_zero);
-    result.n_negative =
-      std::count_if(values.begin(), values.end(), [&](const double value) { return value <= -round_off * largest; });
+    result.n_negative    = std::count_if(
+      values.begin(), values.end(), [&](const double value) { return value <= -round_off * largest; });
     result.lowest = values.front() / largest;
     // By size: a rigid-body motion must not hide behind a negative eigenvalue.
-    std::sort(values.begin(), values.end(), [](const double a, const double b) { return std::abs(a) < std::abs(b); });
+    std::sort(
+      values.begin(), values.end(), [](const double a, const double b) { return std::abs(a) < std::abs(b); });
     result.first = values[dim * (dim + 1) / 2] / largest;
     result.imaginary /= largest;
     return result;
@@ -135,8 +140,8 @@ namespace
     const test::Body<2> body(*mesh, horizon_factor);
     const Spectrum      values =
       measure(*create_operator<2>(*mesh, body, horizon_factor, {"correspondence", "family", stabilisation}));
-    std::cout << "| " << horizon_factor << " | " << stabilisation << " | " << values.n_zero << " | " << values.first
-              << " |" << std::endl;
+    std::cout << "| " << horizon_factor << " | " << stabilisation << " | " << values.n_zero << " | "
+              << values.first << " |" << std::endl;
   }
 
   template <int dim>
@@ -152,9 +157,9 @@ namespace
       {
         const Spectrum values = measure(*create_operator<dim>(*mesh, body, horizon_factor, variant));
         std::cout << "| " << variant.model << " | " << variant.form
-                  << (variant.stabilisation == "0" ? ", no penalty" : "") << " | " << dim << " | " << distortion << " | "
-                  << values.n_zero << " | " << values.n_negative << " | " << values.first << " | " << values.lowest
-                  << " | " << values.imaginary << " |" << std::endl;
+                  << (variant.stabilisation == "0" ? ", no penalty" : "") << " | " << dim << " | "
+                  << distortion << " | " << values.n_zero << " | " << values.n_negative << " | "
+                  << values.first << " | " << values.lowest << " | " << values.imaginary << " |" << std::endl;
       }
   }
 } // namespace

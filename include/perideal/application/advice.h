@@ -15,7 +15,8 @@ namespace perideal
   ///   the face gradient has no linear fit
   std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin);
 
-  /// Cells of all ranks that have no gradient across the part that they lie in. Needs scene.gradient. Collective.
+  /// Cells of all ranks that have no gradient across the part that they lie in. Needs scene.gradient.
+  /// Collective.
   template <int dim>
   GlobalIndex thin_cells(const SceneState<dim> &scene);
 

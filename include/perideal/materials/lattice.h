@@ -35,8 +35,8 @@ namespace perideal
                                  const double             horizon_factor);
 
   /// What springs between whole cells make of an isotropic solid: C_xxxx / (3 C_xxyy) - 1 of their moments
-  /// sum_j xi_x^4/|xi|^3 and sum_j xi_x^2 xi_y^2/|xi|^3 on the lattice [-]. 0 on a full sphere; infinite where no
-  /// bond is oblique.
+  /// sum_j xi_x^4/|xi|^3 and sum_j xi_x^2 xi_y^2/|xi|^3 on the lattice [-]. 0 on a full sphere; infinite
+  /// where no bond is oblique.
   template <int dim>
   double lattice_anisotropy(const double horizon_factor);
 } // namespace perideal

@@ -20,9 +20,9 @@ namespace perideal
   {
     /// Collective.
     /// @param is_cut whether a precrack cuts the bond between two places; empty: none does
-    ConnectedParts(const Mesh<dim>                                                               &mesh,
-                   const Nodes<dim>                                                              &nodes,
-                   const Families<dim>                                                           &families,
+    ConnectedParts(const Mesh<dim>     &mesh,
+                   const Nodes<dim>    &nodes,
+                   const Families<dim> &families,
                    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut);
 
     unsigned int n_parts = 1, n_bodies = 1;
@@ -35,8 +35,8 @@ namespace perideal
     /// The part of each coarse cell, by index.
     static std::vector<unsigned int> parts_of_coarse_cells(const Mesh<dim> &mesh);
     /// Makes bodies of the parts that bonds join.
-    void join(const Families<dim>                                                           &families,
-              const std::vector<unsigned int>                                               &part_of_node,
+    void join(const Families<dim>                                                               &families,
+              const std::vector<unsigned int>                                                   &part_of_node,
               const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut);
   };
 } // namespace perideal

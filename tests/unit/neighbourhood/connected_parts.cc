@@ -37,7 +37,8 @@ namespace
   {
     const auto            mesh = make_row_with_gap<dim>(from, to);
     const test::Body<dim> body(*mesh, 2.5);
-    return ConnectedParts<dim>(*mesh, body.nodes, *body.families, [&](const auto &, const auto &) { return is_cut; });
+    return ConnectedParts<dim>(
+      *mesh, body.nodes, *body.families, [&](const auto &, const auto &) { return is_cut; });
   }
 
   /// Bonds join what lies nearer than the horizon, unless they are cut.
