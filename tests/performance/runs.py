@@ -43,11 +43,12 @@ class Run:
 
 
 def add_arguments(parser, repeat=3):
-    """The options that all measurements have."""
+    """The options that all measurements have; no --repeat where repeat is None."""
     parser.add_argument("--program", required=True, type=lambda path: str(Path(path).resolve()))
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
-    parser.add_argument("--repeat", type=int, default=repeat, help="runs of each case, for medians")
+    if repeat is not None:
+        parser.add_argument("--repeat", type=int, default=repeat, help="runs of each case, for medians")
 
 
 def launcher(options):

@@ -70,7 +70,10 @@ def run_case(options, study, case, bases):
     base_run, base_figure = bases.get(case.model, (run, 0.))
     figure = None
     if run.status == 0:
-        figure = float((case.figure or study.figure)(run, base_run))
+        try:
+            figure = float((case.figure or study.figure)(run, base_run))
+        except TypeError:  # summaries have null where a number is not finite
+            figure = math.nan
     if case.base:
         bases[case.model] = (run, figure if figure is not None else math.nan)
         base_figure = bases[case.model][1]
@@ -140,7 +143,7 @@ def page(all_rows, studies):
 def main():
     names = [study.name for study in STUDIES]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    runs.add_arguments(parser, repeat=1)
+    runs.add_arguments(parser, repeat=None)
     parser.add_argument("--spectrum", help="performance_spectrum; default: where the build has it beside the program")
     parser.add_argument("--studies", nargs="+", choices=[*names, "eigenvalues"], metavar="NAME", default=[*names, "eigenvalues"],
                         help="of " + ", ".join([*names, "eigenvalues"]))
