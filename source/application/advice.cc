@@ -102,8 +102,8 @@ namespace perideal
       if (model.is_tensor_involved() && std::none_of(conditions.begin(), conditions.end(), [](const auto &c) {
             return c.prescribes_displacement();
           }))
-        result.push_back(
-          "bonds with tensors resist rotation at surfaces: a body that nothing holds does not turn freely");
+        result.push_back("bonds with tensors do not let a body turn freely that nothing holds: at surfaces "
+                         "rotation costs energy, or sets it free where they push sideways");
     }
 
     /// Largest ratio of the sizes of two cells that share a face.
@@ -227,6 +227,10 @@ namespace perideal
         result.push_back(grouped(thin) +
                          " cells lie in parts one cell thick, across which they have no gradient: take "
                          "two cells, or Material/Form = family");
+    if (parameters.model.is_correspondence() && !consistent && std::stod(parameters.model.stabilisation) == 0)
+      result.push_back(
+        "without a penalty the gradient of the family hardly sees some motions, which then cost next "
+        "to no energy: take Material/Stabilisation = automatic");
     if (scene.parts->n_bonds_across > 0)
       result.push_back(
         grouped(scene.parts->n_bonds_across) +
