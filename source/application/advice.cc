@@ -91,19 +91,17 @@ namespace perideal
                         const SceneState<dim>    &scene,
                         std::vector<std::string> &result)
     {
-      if (!parameters.solver.is_dynamic())
-        return;
       const ModelParameters &model = parameters.model;
-      if (model.model == "extended ordinary" && model.form == "paper")
+      if (parameters.solver.is_dynamic() && model.model == "extended ordinary" && model.form == "paper")
         result.push_back(
           "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
           "Material/Form = energy keeps what was put in");
       const auto &conditions = scene.loads.conditions;
-      if (model.is_tensor_involved() && std::none_of(conditions.begin(), conditions.end(), [](const auto &c) {
-            return c.prescribes_displacement();
-          }))
+      if (model.is_tensor_involved() && !model.is_consistent() &&
+          std::none_of(
+            conditions.begin(), conditions.end(), [](const auto &c) { return c.prescribes_displacement(); }))
         result.push_back("bonds with tensors do not let a body turn freely that nothing holds: at surfaces "
-                         "rotation costs energy, or sets it free where they push sideways");
+                         "rotation costs energy, or sets it free where they push sideways or are cured");
     }
 
     /// Largest ratio of the sizes of two cells that share a face.

@@ -107,6 +107,8 @@ def sizes(_options):
         return ["Mesh/Cells=16, 16", *(["Mesh/Refine at=right", f"Mesh/Refine times={times}"] if times else [])]
     for case in series((0, 2, 4, 7, 10), 0, (0, 2, 4), 1.5, settings, ("cell sizes",), (10,)):
         case.value = f"1:{2**int(case.value)}"
+        if case.model in ("paper", "ordinary", "bond based") and not case.base:
+            case.must = ()  # they count whole cells
         yield case
 
 

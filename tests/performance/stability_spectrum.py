@@ -40,7 +40,8 @@ def figure_of(row, reference):
     """How much softer the model's first elastic mode is; infinite with other zero modes than rigid-body motions, with
     eigenvalues below zero, and with complex ones, by which motions grow."""
     dim = int(row["dim"])
-    if int(row["zero modes"]) != dim * (dim + 1) // 2 or int(row["negative"]) > 0 or float(row["largest imaginary part"]) > ROUND_OFF:
+    zero, negative, imaginary = int(row["zero modes"]), int(row["negative"]), float(row["largest imaginary part"])
+    if zero != dim * (dim + 1) // 2 or negative > 0 or imaginary > ROUND_OFF:
         return math.inf
     return float(reference["first"]) / float(row["first"])
 
@@ -80,7 +81,7 @@ def rows(options, make_row):
         if not figure <= BOUND:
             warned = told(options, row)
             verdict = "warned" if warned else "silent"
-                says += "; " + warned[0].removeprefix("warning").strip() if warned else ""
+            says += "; " + warned[0].removeprefix("warning").strip() if warned else ""
         result.append(make_row(STUDY.name, case, verdict, figure, BOUND, says if verdict != "ok" else ""))
         print(f"eigenvalues: {case.value}, {name}: {figure:.2e}, {verdict} {says}", flush=True)
     return result
