@@ -62,7 +62,7 @@ def judge(case, run, figure, bound):
         return "crash", f"exit status {run.status}: {run.message()}"
     if figure <= bound:  # not so of NaN
         return "ok", ""
-    named = [line for line in run.warnings() if any(word in line for word in case.words)]
+    named = [line for word in case.words for line in run.warnings() if word in line]
     return ("warned", named[0].removeprefix("warning").strip()) if named else ("silent", "")
 
 
