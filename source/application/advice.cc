@@ -80,7 +80,7 @@ namespace perideal
       // Families of long cells have other numbers of members.
       if (scene.families->statistics().max < whole && scene.nodes->max_aspect_ratio < 1.5)
         result.push_back(
-          "the body is thin for its horizon, nowhere twice as thick: " + share +
+          "the body is nowhere two horizons thick: " + share +
           ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
           "extended ordinary with Form = consistent in statics");
     }

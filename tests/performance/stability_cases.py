@@ -159,7 +159,7 @@ def plate(dimension, layers, model, state, length):
             *(f"Comparison/Exact u_{axis}={formula}" for axis, formula in zip("xyz", exact))]
 
 
-THIN = ("one cell thick", "thin for its horizon", "smallest family", "surface correction")
+THIN = ("one cell thick", "two horizons thick", "smallest family", "surface correction")
 
 
 def thin_plates(dimension, state, _options):
