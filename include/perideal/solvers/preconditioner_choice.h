@@ -19,6 +19,8 @@ namespace perideal
     bool   symmetric          = true;
     /// Iterations over those that the forms with forces along bonds take.
     double iteration_factor = 1;
+    /// Time of a bond's share of an iteration over that of these forms.
+    double bond_factor = 1;
   };
 
   /// The size of a scene. Collective.
