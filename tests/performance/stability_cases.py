@@ -88,18 +88,18 @@ def series(values, base, easy, growth, settings, words, quick=()):
     for model, value in itertools.product(MODELS, values):
         yield Case(str(value), model, [*on_square(model), *settings(value)], growth=growth, base=value == base,
                    words=words, must=GOOD if value in easy else (), bound=0.01,
-                   quick=value in (base, *quick) and model in ("consistent", "energy", "bond based"))
+                   quick=value in (base, *quick) and model in ("consistent", "energy"))
 
 
 def distortions(_options):
     yield from series((0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.49), 0, (0, 0.1, 0.2), 2.,
-                      lambda value: [f"Mesh/Distortion={value}"], ("distorted",), (0.3, 0.49))
+                      lambda value: [f"Mesh/Distortion={value}"], ("distorted",), (0.49,))
 
 
 def aspect_ratios(_options):
     yield from series((1, 2, 5, 10, 20, 50, 100), 1, (1, 2), 2.,
                       lambda value: [f"Mesh/Size={value}, 1", *harmonic(2 / value)],
-                      ("aspect ratio", "smallest family", "moment condition"), (10, 100))
+                      ("aspect ratio", "smallest family", "moment condition"), (100,))
 
 
 def sizes(_options):
@@ -167,7 +167,7 @@ def thin_plates(dimension, state, _options):
         yield Case(f"{layers} layers" if layers > 1 else "1 layer", model,
                    plate(dimension, layers, model, state, 40 if dimension == 2 else 12), SQUARE, bound=0.1, beside_fem=True,
                    words=THIN, must=GOOD if model == "consistent" and layers > 1 else (),
-                   quick=dimension == 2 and layers in (1, 4) and model in ("consistent", "energy", "bond based"))
+                   quick=dimension == 2 and layers in (1, 4) and model in ("consistent", "bond based"))
 
 
 def few_cells(_options):

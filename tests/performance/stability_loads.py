@@ -47,7 +47,7 @@ def units(_options):
         yield Case(name, model, [*on_square(model), *material, *harmonic(2., length, stress), "Solver/Tolerance=1e-12",
                                  "Comparison/FEM=false"],
                    bound=1e-9, figure=scaled(length, stress), base=name == "m, Pa", must=GOOD,
-                   quick=name in ("m, Pa", "km, GPa") and model in ("consistent", "energy", "bond based"))
+                   quick=name in ("m, Pa", "km, GPa") and model in ("consistent", "bond based"))
     for model, (name, (length, stress)) in itertools.product(LARGE_STRAIN, UNITS.items()):
         yield Case(name, f"{model}, shear of 0.1", [
             *LARGE_STRAIN[model], *shear_stiff(0.25), f"Material/Young modulus={1e9 * stress!r}",
@@ -152,9 +152,9 @@ def two_bodies(options):
         near = f"{gap_cells} cell{'s' * (gap_cells > 1)} apart"
         yield Case(f"both held, {near}", model, [*mesh, *held("right", "right", "0", None)], SQUARE, bound=0.2,
                    words=("share no face",), must=GOOD if gap_cells > 3 else (),
-                   quick=model in ("consistent", "energy"))
+                   quick=model == "consistent")
         yield Case(f"one loose, {near}", model, mesh, SQUARE, bound=0., words=("share no face",),
-                   must=("refused",) if gap_cells > 3 else SAID, quick=model in ("consistent", "energy"))
+                   must=("refused",) if gap_cells > 3 else SAID, quick=model == "consistent")
 
 
 def missing_reaction(run, _base):
