@@ -74,15 +74,15 @@ def draw(scene, rows, path):
 
 def time_to(line, target):
     """Seconds to an error on a line of (seconds, error), interpolated between resolutions in logarithms, and whether
-    the coarsest is better already; None: not reached."""
-    for k, (seconds, error) in enumerate(line):
-        if error <= target:
-            if k == 0:
-                return seconds, True
-            before_seconds, before = line[k - 1]
-            share = math.log(before / target) / math.log(before / error)
-            return before_seconds * (seconds / before_seconds) ** share, False
-    return None
+    the coarsest is better already; None: not reached, or lost again on a finer mesh."""
+    above = [k for k, (_, error) in enumerate(line) if error > target]
+    if not line or len(line) - 1 in above:
+        return None
+    if not above:
+        return line[0][0], True
+    (before_seconds, before), (seconds, error) = line[above[-1]:above[-1] + 2]
+    share = math.log(before / target) / math.log(before / error)
+    return before_seconds * (seconds / before_seconds) ** share, False
 
 
 def ratio(line, base, target):

@@ -232,7 +232,7 @@ def pdbc(scene, about, resolutions, exact=(), truth="exact"):
     return Scene(f"prm/examples/{scene}.prm", about, resolutions,
                  (*finite_elements(consistent), Method("consistent form", consistent, accurate=True), *bonds,
                   Method("correspondence, faces", correspondence, drawn=False),
-                  Method("paper's way", paper, "paper", 3)),
+                  Method("paper's way", paper, "paper")),
                  (1e-1, 1e-2, 1e-3, 1e-4), truth, carrier=consistent)
 
 
