@@ -79,10 +79,10 @@ namespace perideal
             for (int d = 0; d < dim; ++d)
               y[d] = position[j].value[d] - position[i].value[d];
             const double length = y.norm(), rest = rest_length[slot];
-            double       magnitude = weights.stiffness[slot] * (length - rest) * rest;
+            double       magnitude = stiffness(slot) * (length - rest) * rest;
             for (unsigned int a = 0; a < n_sums; ++a)
-              magnitude += weights.force_weights()[a].near[slot] * state[a][i] +
-                           weights.force_weights()[a].far[slot] * state[a][j];
+              magnitude +=
+                force_weight(a, {slot, true}) * state[a][i] + force_weight(a, {slot, false}) * state[a][j];
             visit(i, j, length > 0 ? magnitude * rest / length * y : dealii::Tensor<1, dim>());
           }
   }
@@ -101,12 +101,12 @@ namespace perideal
           const LocalIndex j     = bonds.neighbour[slot];
           const double     eps   = motion(slot, i, j, at_rest).eps;
           const double     share = j < n_owned ? 1. : 0.5;
-          result += share * 0.5 * weights.stiffness[slot] * eps * eps;
+          result += share * 0.5 * stiffness(slot) * eps * eps;
           if constexpr (own_force_weights)
             {
-              force[i][0] += weights.force_weight[0].near[slot] * eps;
+              force[i][0] += force_weight(0, {slot, true}) * eps;
               if (j < n_owned)
-                force[j][0] += weights.force_weight[0].far[slot] * eps;
+                force[j][0] += force_weight(0, {slot, false}) * eps;
             }
         }
     for (LocalIndex i = 0; i < n_owned; ++i)
@@ -165,8 +165,7 @@ namespace perideal
             const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                const auto  &ends   = weights.force_weights()[a];
-                const double weight = (end.is_near ? ends.near : ends.far)[end.slot];
+                const double weight = force_weight(a, end);
                 after.force[a] += weight * m.eps;
                 after.force_rate[a] += weight * m.rate;
               }

@@ -43,13 +43,13 @@ namespace perideal
         bond.slot      = slot;
         bond.near      = i;
         bond.far       = bonds.neighbour[slot];
-        bond.stiffness = weights.stiffness[slot];
+        bond.stiffness = stiffness(slot);
         for (unsigned int a = 0; a < n_sums; ++a)
           {
-            bond.near_sum[a]   = weights.sum_weight[a].near[slot];
-            bond.far_sum[a]    = weights.sum_weight[a].far[slot];
-            bond.near_force[a] = weights.force_weights()[a].near[slot];
-            bond.far_force[a]  = weights.force_weights()[a].far[slot];
+            bond.near_sum[a]   = sum_weight(a, {slot, true});
+            bond.far_sum[a]    = sum_weight(a, {slot, false});
+            bond.near_force[a] = force_weight(a, {slot, true});
+            bond.far_force[a]  = force_weight(a, {slot, false});
           }
         broken_now.push_back(bond);
         this->break_bond(slot, i);

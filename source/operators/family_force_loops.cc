@@ -16,6 +16,7 @@ namespace perideal
       std::fill(sums[a].begin(), sums[a].end(), 0.);
     const LocalIndex *neighbour = bonds.neighbour.data();
     const NodeRecord *y         = position.data();
+    const double      unit_sum  = unit.sum;
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
@@ -43,7 +44,7 @@ namespace perideal
                 if (__builtin_expect(any_negative(margin), false))
                   break_bonds(i, k, -margin);
               }
-            const Lanes extension = (length - rest) * rest;
+            const Lanes extension = (length - rest) * rest * unit_sum;
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
@@ -70,6 +71,7 @@ namespace perideal
     NodeRecord       *f            = forces.data();
     const auto       &pull_weights = weights.force_weights();
     const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
+    const double      unit_force = unit.force, unit_stiffness = unit.stiffness;
     std::fill(forces.begin(), forces.end(), NodeRecord{});
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
@@ -99,14 +101,19 @@ namespace perideal
                   break_bonds(i, k, -margin);
               }
             load(magnitude, weights.stiffness.data() + k);
-            magnitude *= (length - rest) * rest;
-            for (unsigned int a = 0; a < n_sums; ++a)
+            magnitude *= (length - rest) * rest * unit_stiffness;
+            if constexpr (n_sums > 0)
               {
-                Lanes near, far;
-                load(near, pull_weights[a].near.data() + k);
-                load(far, pull_weights[a].far.data() + k);
-                const double *s = state[a].data();
-                magnitude += near * s[i] + far * Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+                Lanes by_states = {};
+                for (unsigned int a = 0; a < n_sums; ++a)
+                  {
+                    Lanes near, far;
+                    load(near, pull_weights[a].near.data() + k);
+                    load(far, pull_weights[a].far.data() + k);
+                    const double *s = state[a].data();
+                    by_states += near * s[i] + far * Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+                  }
+                magnitude += by_states * unit_force;
               }
             magnitude *= rest / length;
             for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)

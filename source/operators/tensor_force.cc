@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perideal
 {
@@ -11,8 +12,20 @@ namespace perideal
   TensorForce<dim>::TensorForce(const TensorWeights<dim> &weights)
     : BreakingBonds<dim>(weights.families, weights.bonds, false)
   {
+    double largest = 0;
+    for (const auto &values : weights.component)
+      for (const double value : values)
+        largest = std::max(largest, std::abs(value));
+    largest = dealii::Utilities::MPI::max(largest, families->communicator);
+    unit    = largest > 0 ? largest : 1.;
     for (unsigned int p = 0; p < tensors.n_components; ++p)
-      tensors.component[p].assign(weights.component[p].begin(), weights.component[p].end());
+      {
+        tensors.component[p].resize(weights.component[p].size());
+        std::transform(weights.component[p].begin(),
+                       weights.component[p].end(),
+                       tensors.component[p].begin(),
+                       [&](const double value) { return static_cast<float>(value / unit); });
+      }
     displacements.resize(families->n_local(), NodeRecord{});
   }
 
@@ -38,7 +51,7 @@ namespace perideal
       if (margin[lane] < 0)
         {
           const BondIndex slot = first_slot + lane;
-          broken_now.push_back({i, bonds.neighbour[slot], tensors.at(slot)});
+          broken_now.push_back({i, bonds.neighbour[slot], tensor(slot)});
           this->break_bond(slot, i);
         }
   }
@@ -102,7 +115,7 @@ namespace perideal
       sum_forces<false>();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
-        force.local_element(dim * i + d) = forces[i].value[d];
+        force.local_element(dim * i + d) = unit * forces[i].value[d];
   }
 
   template <int dim>
@@ -120,7 +133,7 @@ namespace perideal
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
-          visit(i, j, tensors.at(slot) * eta(i, j));
+          visit(i, j, tensor(slot) * eta(i, j));
   }
 
   template <int dim>
@@ -133,7 +146,7 @@ namespace perideal
           const LocalIndex j     = bonds.neighbour[slot];
           const double     share = j < families->n_owned() ? 1. : 0.5;
           const auto       e     = eta(i, j);
-          result += share * 0.5 * (e * (tensors.at(slot) * e));
+          result += share * 0.5 * (e * (tensor(slot) * e));
         }
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }

@@ -14,7 +14,8 @@ namespace perideal
   /**
    * The nonlinear loops for models of one family shape. Weights are kept in single precision, which
    * halves what the loops load; it is one perturbation of 6e-8 of the material, the same in forces and
-   * energy. Lengths, sums and forces are in double precision.
+   * energy. They are kept over the largest, so that it is also the same in all units of length and force, and
+   * nothing leaves the range of single precision. Lengths, sums and forces are in double precision.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
   class FamilyForce : public BreakingBonds<dim>
@@ -70,7 +71,20 @@ namespace perideal
     bool carries_force(const BondIndex slot) const override;
     void clear_weights(const BondIndex slot) override;
 
-    /// Copies weights, which become single precision.
+    /// The weights as they are.
+    double stiffness(const BondIndex slot) const { return unit.stiffness * weights.stiffness[slot]; }
+    double sum_weight(const unsigned int a, const BondCursor::End &end) const
+    {
+      const auto &ends = weights.sum_weight[a];
+      return unit.sum * (end.is_near ? ends.near : ends.far)[end.slot];
+    }
+    double force_weight(const unsigned int a, const BondCursor::End &end) const
+    {
+      const auto &ends = weights.force_weights()[a];
+      return unit.force * (end.is_near ? ends.near : ends.far)[end.slot];
+    }
+
+    /// Copies weights, which become single precision. Collective.
     void take(const Weights &weights);
     /// Sums and forces of the bonds there are; with can_break, those too long break before.
     template <bool can_break>
@@ -106,8 +120,10 @@ namespace perideal
     /// Slots of the bonds of an owned node.
     std::vector<BondCursor::End> slots_of(const LocalIndex i) const;
 
-    FamilyMaps<n_sums>                            map;
+    FamilyMaps<n_sums> map;
+    /// In units.
     SlotWeights<float, n_sums, own_force_weights> weights;
+    typename Weights::Units                       unit;
     std::vector<double>                           energy;
 
     std::vector<BrokenBond> broken_now;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -58,27 +59,55 @@ namespace perideal
         return sum_weight;
     }
 
-    /// Takes the weights of another precision, by slot.
+    /// Sizes that the weights for sums, for forces and stiffnesses are given in.
+    struct Units
+    {
+      double sum = 1, force = 1, stiffness = 1;
+    };
+
+    /// The largest of each on this rank.
+    Units largest() const
+    {
+      Units      result = {0, 0, 0};
+      const auto raise  = [](double &most, const std::vector<Number> &values) {
+        for (const Number value : values)
+          most = std::max<double>(most, std::abs(value));
+      };
+      raise(result.stiffness, stiffness);
+      for (const Ends &ends : sum_weight)
+        {
+          raise(result.sum, ends.near);
+          raise(result.sum, ends.far);
+        }
+      for (const Ends &ends : force_weights())
+        {
+          raise(result.force, ends.near);
+          raise(result.force, ends.far);
+        }
+      return result;
+    }
+
+    /// Takes the weights of another precision, by slot, in units.
     template <typename Other>
-    void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other)
+    void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other, const Units &units)
     {
       const BondIndex n_slots = other.kind.empty() ? other.stiffness.size() : other.kind.size();
-      const auto      copy    = [&](const std::vector<Other> &from, std::vector<Number> &to) {
+      const auto      copy = [&](const std::vector<Other> &from, std::vector<Number> &to, const double unit) {
         to.resize(n_slots);
         for (BondIndex slot = 0; slot < n_slots; ++slot)
-          to[slot] = static_cast<Number>(from[other.at(slot)]);
+          to[slot] = static_cast<Number>(from[other.at(slot)] / unit);
       };
       for (unsigned int a = 0; a < n_sums; ++a)
         {
-          copy(other.sum_weight[a].near, sum_weight[a].near);
-          copy(other.sum_weight[a].far, sum_weight[a].far);
+          copy(other.sum_weight[a].near, sum_weight[a].near, units.sum);
+          copy(other.sum_weight[a].far, sum_weight[a].far, units.sum);
           if (own_force_weights)
             {
-              copy(other.force_weight[a].near, force_weight[a].near);
-              copy(other.force_weight[a].far, force_weight[a].far);
+              copy(other.force_weight[a].near, force_weight[a].near, units.force);
+              copy(other.force_weight[a].far, force_weight[a].far, units.force);
             }
         }
-      copy(other.stiffness, stiffness);
+      copy(other.stiffness, stiffness, units.stiffness);
     }
 
     std::size_t weights_memory() const

@@ -59,10 +59,15 @@ namespace perideal
     /// @param margin of their lengths below the largest ones [m]
     void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin);
 
+    /// The tensor as it is [N/m].
+    dealii::SymmetricTensor<2, dim> tensor(const BondIndex slot) const { return unit * tensors.at(slot); }
+
     /// u_j - u_i.
     dealii::Tensor<1, dim> eta(const LocalIndex i, const LocalIndex j) const;
 
+    /// Over the largest of their components, so that rounding is the same in all units, and that [N/m].
     BondTensors<float, dim>           tensors;
+    double                            unit;
     dealii::AlignedVector<NodeRecord> displacements;
     std::vector<BrokenBond>           broken_now;
   };

@@ -437,3 +437,49 @@ TEST(BondForce, LeavesOutWhatIsAtRest)
       EXPECT_EQ(shifted.bonds->share_computed(), 1.);
     }
 }
+
+/// A body measured in kilometres and other units of stress has the same forces: weights are rounded to single
+/// precision alike.
+TEST(BondForce, RoundsAlikeInAllUnits)
+{
+  const double length = 1e-3, stress = 3e-7;
+  const auto   mesh     = test::make_box<2>({9, 8}, {1., 0.9}, 0.2),
+             small_mesh = test::make_box<2>({9, 8}, {1., 0.9}, 0.2);
+  dealii::GridTools::scale(length, small_mesh->triangulation);
+  const test::Body<2> body(*mesh), small_body(*small_mesh);
+  for (const auto &variant : {std::pair<std::string, std::string>("bond based", ""),
+                              {"ordinary", ""},
+                              {"extended ordinary", "paper"},
+                              {"extended ordinary", "energy"},
+                              {"tensor involved", "moment corrected"}})
+    {
+      SCOPED_TRACE(variant.first + " " + variant.second);
+      ModelParameters parameters;
+      parameters.model = variant.first;
+      parameters.form  = variant.second;
+      parameters.resolve(2);
+      const auto weigh = [&](const test::Body<2> &of, const double unit) {
+        const auto solid = parameters.constants_of_model({unit, 0.25, PlaneAssumption::plane_strain});
+        return create_bond_force<2>(*weigh_bonds<2>(
+          of.families, *create_model<2>(parameters, 1.), [&](const dealii::types::material_id) {
+            return ElasticSolid<2>(solid);
+          }));
+      };
+      const auto  bonds = weigh(body, 1.), small_bonds = weigh(small_body, stress);
+      NodalVector force, displacement, small_force;
+      for (NodalVector *vector : {&force, &displacement, &small_force})
+        bonds->initialize(*vector);
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        for (int d = 0; d < 2; ++d)
+          displacement.local_element(2 * i + d) = 0.02 * test::scatter(body.nodes.position[i], d);
+      bonds->compute(force, displacement);
+      const double energy = bonds->strain_energy();
+      displacement *= length;
+      small_bonds->compute(small_force, displacement);
+      // Of unit thickness both.
+      EXPECT_NEAR(small_bonds->strain_energy() / (stress * length * length), energy, 1e-11 * energy);
+      small_force /= stress * length;
+      small_force -= force;
+      EXPECT_LT(small_force.linfty_norm(), 1e-11 * force.linfty_norm());
+    }
+}
