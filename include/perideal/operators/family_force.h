@@ -123,7 +123,7 @@ namespace perideal
     FamilyMaps<n_sums> map;
     /// In units.
     SlotWeights<float, n_sums, own_force_weights> weights;
-    typename Weights::Units                       unit;
+    WeightUnits                                   unit;
     std::vector<double>                           energy;
 
     std::vector<BrokenBond> broken_now;

@@ -34,6 +34,12 @@ namespace perideal
     std::vector<std::array<double, 3>> entries;
   };
 
+  /// Sizes that weights for sums, weights for forces, and stiffnesses are given in.
+  struct WeightUnits
+  {
+    double sum = 1, force = 1, stiffness = 1;
+  };
+
   /**
    * Weights of every bond: of each end for each sum, and one stiffness. They stand by slot; where equal
    * families share theirs, by kind of bond.
@@ -59,17 +65,11 @@ namespace perideal
         return sum_weight;
     }
 
-    /// Sizes that the weights for sums, for forces and stiffnesses are given in.
-    struct Units
-    {
-      double sum = 1, force = 1, stiffness = 1;
-    };
-
     /// The largest of each on this rank.
-    Units largest() const
+    WeightUnits largest() const
     {
-      Units      result = {0, 0, 0};
-      const auto raise  = [](double &most, const std::vector<Number> &values) {
+      WeightUnits result = {0, 0, 0};
+      const auto  raise  = [](double &most, const std::vector<Number> &values) {
         for (const Number value : values)
           most = std::max<double>(most, std::abs(value));
       };
@@ -89,7 +89,7 @@ namespace perideal
 
     /// Takes the weights of another precision, by slot, in units.
     template <typename Other>
-    void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other, const Units &units)
+    void copy_from(const SlotWeights<Other, n_sums, own_force_weights> &other, const WeightUnits &units)
     {
       const BondIndex n_slots = other.kind.empty() ? other.stiffness.size() : other.kind.size();
       const auto      copy = [&](const std::vector<Other> &from, std::vector<Number> &to, const double unit) {
