@@ -35,8 +35,8 @@ CHOICES = [
      ["energy form", "ordinary", "springs, exact parts", "springs"]),
 ]
 STYLES = {"FEM Q1": 'linewidth 4 linecolor rgb "black" pointtype 5 dashtype 1',
-          "FEM Q2": 'linewidth 4 linecolor rgb "#909090" pointtype 7 dashtype 2'}
-PAPER_STYLE = 'linewidth 4 linecolor rgb "red" pointtype 9 dashtype 4'
+          "FEM Q2": 'linewidth 4 linecolor rgb "#909090" pointtype 7 dashtype "_"'}
+PAPER_STYLE = 'linewidth 4 linecolor rgb "red" pointtype 9 dashtype "-"'
 
 
 def lines_of(rows):
@@ -56,7 +56,7 @@ def draw(scene, rows, path):
         return
     lines = lines_of(rows)
     drawn = [method for method in scene.methods if method.drawn and lines.get(method.name)]
-    script = ['set terminal pngcairo size 900,520 font "DejaVu Sans,11" background "white"', f'set output "{path}"',
+    script = ['set terminal pngcairo size 820,460 font "DejaVu Sans,10" background "white"', f'set output "{path}"',
               "set logscale xy", 'set format x "10^{%L}"', 'set format y "10^{%L}"',
               'set grid xtics ytics linetype 1 linewidth 0.5 linecolor rgb "#d8d8d8"',
               "set key outside right top Left reverse noenhanced samplen 2.5 spacing 1.2",

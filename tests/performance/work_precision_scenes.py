@@ -178,7 +178,8 @@ MANUFACTURED = Scene(
     (*finite_elements(TENSORS_AT_FACES),
      Method("consistent form", TENSORS_AT_FACES, accurate=True),
      Method("moment corrected", (TENSORS, "Material/Form=moment corrected")),
-     Method("moment corrected, partial volume", (TENSORS, "Material/Form=moment corrected", scheme("partial volume"))),
+     Method("moment corrected, partial volume", (TENSORS, "Material/Form=moment corrected", scheme("partial volume")),
+            drawn=False),
      Method("surface cure", (TENSORS, "Material/Form=surface cure"), drawn=False),
      Method("one point", (TENSORS, "Material/Form=one point")),
      Method("one point, partial volume", (TENSORS, "Material/Form=one point", scheme("partial volume"))),
@@ -223,9 +224,8 @@ def pdbc(scene, about, resolutions, exact=(), truth="exact"):
     models = {"springs": (SPRINGS,), "ordinary": (ORDINARY, *solid),
               "energy form": (EXTENDED, "Material/Form=energy", OWN_INFLUENCE, *solid)}
     treatments = {"printed": "printed", "balanced": "balanced", "layer": "layer", "ghosts": "taylor ghosts"}
-    undrawn = {("ordinary", "printed"), ("ordinary", "layer"), ("ordinary", "ghosts"), ("energy form", "printed"),
-               ("energy form", "balanced")}
-    bonds = tuple(Method(f"{model}, {short}", (*settings, treated(treatment)), drawn=(model, short) not in undrawn,
+    drawn = {("energy form", "layer"), ("energy form", "ghosts")}
+    bonds = tuple(Method(f"{model}, {short}", (*settings, treated(treatment)), drawn=model == "springs" or (model, short) in drawn,
                          accurate=(model, short) == ("energy form", "ghosts"))
                   for model, settings in models.items() for short, treatment in treatments.items())
     correspondence = (CORRESPONDENCE, "Material/Form=consistent", OWN_INFLUENCE, treated("automatic"), *solid)
@@ -280,12 +280,12 @@ def schemes_of_springs(*, gauss_2, gauss_4, relaxed, consistent):
         Method("springs, gauss 1", gauss(1), coarse=gauss_2, drawn=False),
         Method("springs, gauss 2", gauss(2), coarse=gauss_2),
         Method("springs, gauss 3", gauss(3), coarse=gauss_4, drawn=False),
-        Method("springs, gauss 4", gauss(4), coarse=gauss_4),
+        Method("springs, gauss 4", gauss(4), coarse=gauss_4, drawn=False),
         Method("springs, exact, energy of the sphere",
                (SPRINGS, scheme("exact"), "Material/Boundary compensation=sphere")),
         Method("springs, exact, ghosts", (SPRINGS, scheme("exact"), *ghosts)),
         Method("springs, gauss 2, ghosts", (*gauss(2), *ghosts), coarse=gauss_4, drawn=False),
-        Method("energy form", (EXTENDED, "Material/Form=energy", ONE_POINT)),
+        Method("energy form", (EXTENDED, "Material/Form=energy", ONE_POINT), drawn=False),
         Method("paper's way", (SPRINGS, ONE_POINT, RELAXATION, *published), "paper", coarse),
     )
 
