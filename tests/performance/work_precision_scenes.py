@@ -225,7 +225,8 @@ def pdbc(scene, about, resolutions, exact=(), truth="exact"):
               "energy form": (EXTENDED, "Material/Form=energy", OWN_INFLUENCE, *solid)}
     treatments = {"printed": "printed", "balanced": "balanced", "layer": "layer", "ghosts": "taylor ghosts"}
     drawn = {("energy form", "layer"), ("energy form", "ghosts")}
-    bonds = tuple(Method(f"{model}, {short}", (*settings, treated(treatment)), drawn=model == "springs" or (model, short) in drawn,
+    bonds = tuple(Method(f"{model}, {short}", (*settings, treated(treatment)),
+                         drawn=model == "springs" or (model, short) in drawn,
                          accurate=(model, short) == ("energy form", "ghosts"))
                   for model, settings in models.items() for short, treatment in treatments.items())
     correspondence = (CORRESPONDENCE, "Material/Form=consistent", OWN_INFLUENCE, treated("automatic"), *solid)
