@@ -97,16 +97,17 @@ namespace perideal
         for (BondIndex slot = 0; slot < n_slots; ++slot)
           to[slot] = static_cast<Number>(from[other.at(slot)] / unit);
       };
-      for (unsigned int a = 0; a < n_sums; ++a)
-        {
-          copy(other.sum_weight[a].near, sum_weight[a].near, units.sum);
-          copy(other.sum_weight[a].far, sum_weight[a].far, units.sum);
-          if (own_force_weights)
-            {
-              copy(other.force_weight[a].near, force_weight[a].near, units.force);
-              copy(other.force_weight[a].far, force_weight[a].far, units.force);
-            }
-        }
+      if constexpr (n_sums > 0)
+        for (unsigned int a = 0; a < n_sums; ++a)
+          {
+            copy(other.sum_weight[a].near, sum_weight[a].near, units.sum);
+            copy(other.sum_weight[a].far, sum_weight[a].far, units.sum);
+            if (own_force_weights)
+              {
+                copy(other.force_weight[a].near, force_weight[a].near, units.force);
+                copy(other.force_weight[a].far, force_weight[a].far, units.force);
+              }
+          }
       copy(other.stiffness, stiffness, units.stiffness);
     }
 
