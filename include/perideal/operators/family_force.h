@@ -75,13 +75,19 @@ namespace perideal
     double stiffness(const BondIndex slot) const { return unit.stiffness * weights.stiffness[slot]; }
     double sum_weight(const unsigned int a, const BondCursor::End &end) const
     {
-      const auto &ends = weights.sum_weight[a];
-      return unit.sum * (end.is_near ? ends.near : ends.far)[end.slot];
+      return unit.sum * at_end(weights.sum_weight, a, end);
     }
     double force_weight(const unsigned int a, const BondCursor::End &end) const
     {
-      const auto &ends = weights.force_weights()[a];
-      return unit.force * (end.is_near ? ends.near : ends.far)[end.slot];
+      return unit.force * at_end(weights.force_weights(), a, end);
+    }
+    template <typename Sums>
+    static double at_end(const Sums &sums, const unsigned int a, const BondCursor::End &end)
+    {
+      if constexpr (n_sums == 0)
+        return 0.;
+      else
+        return (end.is_near ? sums[a].near : sums[a].far)[end.slot];
     }
 
     /// Copies weights, which become single precision. Collective.
