@@ -28,14 +28,13 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyForce<dim, n_sums, own_force_weights>::take(const Weights &from)
   {
-    const auto                  largest = from.largest();
-    const std::array<double, 3> mine    = {{largest.sum, largest.force, largest.stiffness}};
-    std::array<double, 3>       of_all;
-    dealii::Utilities::MPI::max(mine, families->communicator, of_all);
-    const auto size_of = [](const double value) { return value > 0 ? value : 1.; };
-    unit.sum           = size_of(of_all[0]);
-    unit.force         = size_of(of_all[1]);
-    unit.stiffness     = size_of(of_all[2]);
+    unit = from.largest();
+    for (double *size : {&unit.sum, &unit.force, &unit.stiffness})
+      {
+        *size = dealii::Utilities::MPI::max(*size, families->communicator);
+        if (*size == 0)
+          *size = 1.;
+      }
     weights.copy_from(from, unit);
     map    = from.map;
     energy = from.energy;
