@@ -16,6 +16,8 @@ COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8
 CHOICES = [
     ("linear statics, isotropic", "nothing: `extended ordinary`, `consistent`, `static` are the defaults",
      "plate_with_hole", ["consistent form", "FEM Q1", "paper form, mirror", "ordinary, mirror"]),
+    ("a regular mesh for it", "`Mesh/Refinements` = 1 or more of fewer cells: what the preconditioner takes from elements is "
+     "then on their parents", "plate_with_hole", ["consistent form", "consistent form, without parents"]),
     ("the same in 3-D", "nothing", "block_with_hole", ["consistent form", "FEM Q1", "energy form, mirror"]),
     ("linear statics of fibres and crystals", "`Model = tensor involved`", "laminate_with_hole",
      ["consistent form", "FEM Q1", "surface cure, collar", "one point, collar"]),

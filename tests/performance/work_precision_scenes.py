@@ -111,6 +111,7 @@ def hole_methods(paper, coarse, coarse_of_q2):
     return (
         *finite_elements(consistent, coarse_of_q2, refined(1)),
         Method("consistent form", consistent, accurate=True),
+        Method("consistent form, without parents", (*consistent, "Solver/Auxiliary mesh=same"), accurate=True, drawn=False),
         bonds("energy form, mirror", (*energy, held("mirror"))),
         bonds("energy form, layer", (*energy, held("layer"))),
         bonds("energy form, ghosts", (*energy, held("automatic"), ghosts)),
@@ -156,7 +157,7 @@ BLOCK = Scene(
      mesh("23,040", "8, 9, 5", ONCE, truth=refined(0), rough=PARENTS),
      mesh("174,080", "16, 17, 10", ONCE, truth=PARENTS)),
     tuple(method for method in hole_methods(PAPER_IN_3D, coarse=4, coarse_of_q2=1)
-          if method.drawn and method.name not in ("energy form, layer", "correspondence, families")),
+          if (method.drawn or method.name == "consistent form, without parents") and method.name not in ("energy form, layer", "correspondence, families")),
     (5e-2, 1e-2, 1e-3), "reference", carrier=CONSISTENT_AT_FACES)
 
 
