@@ -68,6 +68,16 @@ TEST(PreconditionerChoice, GmresDislikesManyIterations)
   EXPECT_EQ(chosen(size), "auxiliary, same");
 }
 
+/// What a bond takes counts the more, the more iterations there are.
+TEST(PreconditionerChoice, DearBondsWantFewIterations)
+{
+  SolveSize size        = block(2, 44, false);
+  size.iteration_factor = 2.4;
+  EXPECT_EQ(chosen(size), "block jacobi");
+  size.bond_factor = 1.7;
+  EXPECT_EQ(chosen(size), "auxiliary, same");
+}
+
 TEST(PreconditionerChoice, EstimatesIterations)
 {
   // Measured: 149 (square), 63 (cube), 268 (a square pulled and sheared).
