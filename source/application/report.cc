@@ -3,8 +3,6 @@
 #include <perideal/base/text.h>
 #include <perideal/output/summary.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -4,8 +4,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
-#include <numeric>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,43 +15,32 @@ namespace perideal
 {
   namespace
   {
-    /// Members that point at one another, at last at the one that stands for all.
+    /// Things that are joined one by one.
     class Unions
     {
     public:
       explicit Unions(const unsigned int size)
-        : leader(size)
+        : size(size)
+        , sets(size)
       {
-        std::iota(leader.begin(), leader.end(), 0u);
       }
 
-      unsigned int find(unsigned int member)
-      {
-        while (leader[member] != member)
-          member = leader[member] = leader[leader[member]];
-        return member;
-      }
+      void join(const unsigned int a, const unsigned int b) { sets.union_set(a, b); }
 
-      void join(const unsigned int a, const unsigned int b) { leader[find(a)] = find(b); }
-
-      /// Numbers from 0 by member, and how many.
+      /// Number of the set of each thing, from 0, and how many sets there are.
       std::pair<std::vector<unsigned int>, unsigned int> number()
       {
-        constexpr unsigned int    none = -1;
-        std::vector<unsigned int> of_leader(leader.size(), none), result(leader.size());
-        unsigned int              n = 0;
-        for (unsigned int member = 0; member < leader.size(); ++member)
-          {
-            unsigned int &at = of_leader[find(member)];
-            if (at == none)
-              at = n++;
-            result[member] = at;
-          }
-        return {result, n};
+        std::map<unsigned int, unsigned int> of_leader;
+        std::vector<unsigned int>            result(size);
+        for (unsigned int k = 0; k < size; ++k)
+          result[k] =
+            of_leader.insert({sets.find_set(k), static_cast<unsigned int>(of_leader.size())}).first->second;
+        return {result, static_cast<unsigned int>(of_leader.size())};
       }
 
     private:
-      std::vector<unsigned int> leader;
+      unsigned int                        size;
+      boost::disjoint_sets_with_storage<> sets;
     };
 
     /// Marks nodes that are no cells': images and nodes on the surface.
