@@ -4,7 +4,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/mesh/point_location.h>
-#include <perideal/operators/partial_stress.h>
+#include <perideal/operators/post/partial_stress.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/fe/mapping_q1.h>

@@ -3,7 +3,7 @@
 #include <perideal/base/registry.h>
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/materials/elastic_state.h>
-#include <perideal/operators/correspondence_force.h>
+#include <perideal/operators/force/correspondence_force.h>
 
 #include <algorithm>
 #include <functional>

@@ -40,7 +40,7 @@ namespace perideal
     const bool   consistent = model.is_consistent();
     std::string &treatment  = loads.displacement_treatment;
     if (treatment == "automatic")
-      treatment = consistent ? "face value" : loads.has_taylor_ghosts() ? "taylor ghosts" : "layer";
+      treatment = consistent ? "face value" : loads.has_taylor_extension() ? "taylor ghosts" : "layer";
     if (treatment == "face value" && !consistent)
       throw InputError("only the consistent form reads values at faces")
         .parameter("Boundary conditions/Displacement treatment")

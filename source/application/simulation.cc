@@ -10,7 +10,7 @@
 #include <perideal/application/simulation.h>
 #include <perideal/application/versions.h>
 #include <perideal/base/exceptions.h>
-#include <perideal/operators/mirror_reactions.h>
+#include <perideal/operators/post/mirror_reactions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
-#include <perideal/operators/stable_time_step.h>
+#include <perideal/operators/system/stable_time_step.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include <perideal/application/simulation.h>
 #include <perideal/base/text.h>
 #include <perideal/fracture/stress_criteria.h>
-#include <perideal/operators/correspondence_tangent.h>
+#include <perideal/operators/linear/correspondence_tangent.h>
 
 #include <deal.II/base/mpi.h>
 

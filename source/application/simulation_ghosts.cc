@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
-#include <perideal/operators/polynomial_response.h>
+#include <perideal/operators/linear/polynomial_response.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,7 +12,7 @@
 namespace perideal
 {
   template <int dim>
-  void Simulation<dim>::add_taylor_ghosts()
+  void Simulation<dim>::add_taylor_extension()
   {
     // Between materials a uniform strain needs forces that no missing bond stands for.
     if (scene.mesh->material_ids.size() > 1)
@@ -22,7 +22,7 @@ namespace perideal
         .allowed("automatic | layer for several cell groups");
     const Timings::Scope part(timings, "setup: ghosts");
     scene.ghosts =
-      std::make_shared<TaylorGhosts<dim>>(scene.bonds,
+      std::make_shared<TaylorExtension<dim>>(scene.bonds,
                                           scene.families,
                                           *scene.nodes,
                                           scene.faces,
@@ -82,7 +82,7 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void                                   Simulation<dim>::add_taylor_ghosts();                      \
+  template void                                   Simulation<dim>::add_taylor_extension();                      \
   template void                                   Simulation<dim>::measure_families();                       \
   template typename Simulation<dim>::GhostBalance Simulation<dim>::balance_of_ghosts(const double) const;
   PERIDEAL_INSTANTIATE(2)

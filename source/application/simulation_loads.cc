@@ -5,7 +5,7 @@
 #include <perideal/boundary/line_to_point.h>
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/bond_based.h>
-#include <perideal/operators/nodal_springs.h>
+#include <perideal/operators/linear/nodal_springs.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -20,27 +20,27 @@ namespace perideal
   {
     const Timings::Scope   part(timings, "setup: transfer functions");
     TransferFunctions<dim> functions(*scene.nodes, scene.surface);
-    if (!parameters.loads.has_printed_transfer())
+    if (!parameters.loads.has_published_transfer())
       {
         scene.transfer = std::make_shared<BalancedTransfer<dim>>(std::move(functions));
         return;
       }
-    scene.printed_transfer = std::make_shared<PrintedTransfer<dim>>(std::move(functions),
+    scene.published_transfer = std::make_shared<PublishedTransfer<dim>>(std::move(functions),
                                                                     scene.loads,
                                                                     scene.condition_boundaries,
                                                                     parameters.loads.transfer_chi,
                                                                     parameters.loads.transfer_lambda);
-    scene.transfer         = scene.printed_transfer;
-    if (!scene.printed_transfer->springs().empty())
-      scene.bonds = std::make_shared<NodalSprings<dim>>(scene.bonds, scene.printed_transfer->springs());
+    scene.transfer         = scene.published_transfer;
+    if (!scene.published_transfer->springs().empty())
+      scene.bonds = std::make_shared<NodalSprings<dim>>(scene.bonds, scene.published_transfer->springs());
   }
 
   template <int dim>
   void Simulation<dim>::apply_forces(const double time)
   {
     set_tractions(scene.loads, time, external_force);
-    if (scene.printed_transfer)
-      scene.printed_transfer->add_places(scene.loads, time, external_force);
+    if (scene.published_transfer)
+      scene.published_transfer->add_places(scene.loads, time, external_force);
     if (scene.ghosts)
       scene.ghosts->add_known(scene.loads, time, external_force);
     scene.point_forces.add(scene.loads, time, external_force);

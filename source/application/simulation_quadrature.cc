@@ -2,7 +2,7 @@
 #include <perideal/application/simulation.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/materials/boundary_compensation.h>
-#include <perideal/operators/gauss_operator.h>
+#include <perideal/operators/linear/gauss_operator.h>
 #include <perideal/quadrature/regular_body.h>
 
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/fracture/fragments.h>
-#include <perideal/operators/correspondence_force.h>
+#include <perideal/operators/force/correspondence_force.h>
 #include <perideal/output/summary.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 

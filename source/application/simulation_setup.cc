@@ -6,7 +6,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/parent_mesh.h>
-#include <perideal/operators/surface_cure.h>
+#include <perideal/operators/linear/surface_cure.h>
 #include <perideal/solvers/preconditioner_choice.h>
 
 #include <deal.II/base/mpi.h>
@@ -93,14 +93,14 @@ namespace perideal
       {
         scene.mirror = std::make_shared<MirrorLayer<dim>>(
           *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
-        scene.held = HeldNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
+        scene.held = DirichletNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
       }
     else if (parameters.loads.has_surface_nodes())
       {
         scene.surface_nodes = std::make_unique<SurfaceNodes<dim>>(
           *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
         scene.mirror = std::make_shared<MirrorLayer<dim>>(scene.unknowns());
-        scene.held   = HeldNodes<dim>(
+        scene.held   = DirichletNodes<dim>(
           scene.surface_nodes->faces(), scene.loads, scene.condition_boundaries, scene.unknowns().size());
       }
     else
@@ -109,13 +109,13 @@ namespace perideal
                               parameters.loads.displacement_treatment == "taylor ghosts";
         scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
         scene.held   = parameters.loads.layers > 1 ?
-                         HeldNodes<dim>(*scene.mesh,
+                         DirichletNodes<dim>(*scene.mesh,
                                       *scene.nodes,
                                       scene.faces,
                                       scene.loads,
                                       scene.condition_boundaries,
                                       parameters.loads.layers) :
-                         HeldNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
+                         DirichletNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
                                       scene.loads,
                                       scene.condition_boundaries,
                                       scene.nodes->size());
@@ -200,8 +200,8 @@ namespace perideal
           scene.bonds =
             std::make_shared<SurfaceCure<dim>>(scene.bonds, scene.gradient, scene.nodes->volume, solid_of);
       }
-    if (parameters.loads.has_taylor_ghosts())
-      add_taylor_ghosts();
+    if (parameters.loads.has_taylor_extension())
+      add_taylor_extension();
     if (parameters.loads.has_transfer())
       make_transfer();
     measure_families();
@@ -230,9 +230,9 @@ namespace perideal
         upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), communicator);
       }
     RigidBodyMotions<dim> motions(lower + 0.5 * (upper - lower), lower.distance(upper));
-    const HeldNodes<dim>  on_faces =
+    const DirichletNodes<dim>  on_faces =
       !by_nodes() ?
-         HeldNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
+         DirichletNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
          scene.held;
     for (const auto &entry : on_faces.entries())
       motions.hold(!by_nodes() ? entry.point : scene.unknowns().position[entry.node], entry.component);

@@ -66,7 +66,7 @@ namespace perideal
   void SceneParameters::check_ghosts() const
   {
     const bool of_displacements = loads.displacement_treatment == "taylor ghosts";
-    if (!of_displacements && !loads.has_taylor_ghosts())
+    if (!of_displacements && !loads.has_taylor_extension())
       return;
     const auto complain = [this](const std::string &problem, const std::string &hint) {
       throw InputError(problem)
@@ -74,7 +74,7 @@ namespace perideal
         .given(loads.traction_treatment)
         .hint(hint);
     };
-    if (!of_displacements || !loads.has_taylor_ghosts())
+    if (!of_displacements || !loads.has_taylor_extension())
       complain("ghosts meet displacements and tractions together, and displacements have the treatment " +
                  loads.displacement_treatment,
                "set Boundary conditions/Treatment = taylor ghosts instead of either");
@@ -91,7 +91,7 @@ namespace perideal
 
   void SceneParameters::check_transfer() const
   {
-    if (!loads.has_printed_transfer())
+    if (!loads.has_published_transfer())
       return;
     if (loads.transfer_chi == 0 || loads.transfer_chi == 1)
       throw InputError("the factor chi/(chi-1) vanishes or is infinite")

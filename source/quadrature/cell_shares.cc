@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/quadrature/cell_in_ball.h>
+#include <perideal/geometry/cell_in_ball.h>
 #include <perideal/quadrature/cell_shares.h>
 
 #include <algorithm>

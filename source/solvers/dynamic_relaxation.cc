@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/operators/largest_eigenvalue.h>
+#include <perideal/operators/system/largest_eigenvalue.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,7 +20,7 @@ namespace perideal
   template <int dim>
   DynamicRelaxation<dim>::DynamicRelaxation(BondForce<dim>                 &bonds,
                                             const ConstrainedOperator<dim> &system,
-                                            const HeldNodes<dim>           &held,
+                                            const DirichletNodes<dim>           &held,
                                             const Loads<dim>               &loads,
                                             const Controls                 &controls)
     : EquilibriumPath<dim>(bonds, system, held, loads, controls)

@@ -18,7 +18,7 @@ namespace perideal
   template <int dim>
   EquilibriumPath<dim>::EquilibriumPath(BondForce<dim>                 &bonds,
                                         const ConstrainedOperator<dim> &system,
-                                        const HeldNodes<dim>           &held,
+                                        const DirichletNodes<dim>           &held,
                                         const Loads<dim>               &loads,
                                         const Controls                 &controls,
                                         FaceValues<dim>                *face_values)

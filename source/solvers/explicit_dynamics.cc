@@ -7,7 +7,7 @@ namespace perideal
 {
   template <int dim>
   ExplicitDynamics<dim>::ExplicitDynamics(BondForce<dim>            &bonds,
-                                          const HeldNodes<dim>      &held,
+                                          const DirichletNodes<dim>      &held,
                                           const Loads<dim>          &loads,
                                           const std::vector<double> &mass,
                                           const double               damping,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
-#include <perideal/operators/assembled_matrix.h>
-#include <perideal/operators/auxiliary_space.h>
-#include <perideal/operators/block_jacobi.h>
+#include <perideal/operators/system/assembled_matrix.h>
+#include <perideal/operators/system/auxiliary_space.h>
+#include <perideal/operators/system/block_jacobi.h>
 #include <perideal/solvers/linear_solver.h>
 
 #include <deal.II/lac/precondition.h>

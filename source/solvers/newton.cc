@@ -24,7 +24,7 @@ namespace perideal
                                   TangentOperator<dim>     &tangent,
                                   ConstrainedOperator<dim> &system,
                                   TangentSolver<dim>       &linear,
-                                  const HeldNodes<dim>     &held,
+                                  const DirichletNodes<dim>     &held,
                                   const Loads<dim>         &loads,
                                   const NullSpace<dim>     &null_space,
                                   const Controls           &controls,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/bond_force.h>
-#include <perideal/operators/bond_operator.h>
-#include <perideal/operators/family_weights.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/linear/bond_operator.h>
+#include <perideal/operators/weights/family_weights.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/mpi.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/consistent_operator.h>
-#include <perideal/operators/correspondence_tangent.h>
-#include <perideal/operators/surface_cure.h>
+#include <perideal/operators/linear/consistent_operator.h>
+#include <perideal/operators/linear/correspondence_tangent.h>
+#include <perideal/operators/linear/surface_cure.h>
 
 #include <deal.II/base/mpi.h>
 

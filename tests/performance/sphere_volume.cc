@@ -5,7 +5,7 @@
 
 #include <perideal/quadrature/adaptive_integration.h>
 #include <perideal/quadrature/bond_volume.h>
-#include <perideal/quadrature/cell_in_ball.h>
+#include <perideal/geometry/cell_in_ball.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -2,7 +2,7 @@
 #ifndef perideal_tests_unit_dense_matrix_h
 #define perideal_tests_unit_dense_matrix_h
 
-#include <perideal/operators/bond_operator.h>
+#include <perideal/operators/linear/bond_operator.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>

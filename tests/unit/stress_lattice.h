@@ -3,7 +3,7 @@
 #define perideal_tests_unit_stress_lattice_h
 
 #include <perideal/materials/bond_based.h>
-#include <perideal/operators/partial_stress.h>
+#include <perideal/operators/post/partial_stress.h>
 #include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/numbers.h>

@@ -8,7 +8,7 @@
 #include <perideal/mesh/mesh_parameters.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
-#include <perideal/operators/contact_force.h>
+#include <perideal/operators/force/contact_force.h>
 #include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/load_parameters.h>

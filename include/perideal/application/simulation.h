@@ -78,7 +78,7 @@ namespace perideal
     /// Collective.
     /// @param points of the cells; null: one point each
     std::vector<double> compensation_factors(const GaussPoints<dim> *points = nullptr) const;
-    void                add_taylor_ghosts();
+    void                add_taylor_extension();
     /// Transfer functions, where the scene has them. Collective.
     void make_transfer();
     void set_up_solver();

@@ -5,7 +5,7 @@
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/quadrature/cell_graph.h>
+#include <perideal/nodes/cell_graph.h>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #define perideal_boundary_face_values_h
 
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/quadrature/face_gradient.h>
+#include <perideal/reconstruction/face_gradient.h>
 
 #include <array>
 #include <vector>

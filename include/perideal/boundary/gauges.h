@@ -3,7 +3,7 @@
 #define perideal_boundary_gauges_h
 
 #include <perideal/parameters/gauge_parameters.h>
-#include <perideal/quadrature/point_interpolation.h>
+#include <perideal/reconstruction/point_interpolation.h>
 
 #include <vector>
 

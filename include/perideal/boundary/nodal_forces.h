@@ -3,7 +3,7 @@
 #define perideal_boundary_nodal_forces_h
 
 #include <perideal/boundary/boundary_faces.h>
-#include <perideal/quadrature/face_gradient.h>
+#include <perideal/reconstruction/face_gradient.h>
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include <perideal/base/types.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/quadrature/point_interpolation.h>
+#include <perideal/reconstruction/point_interpolation.h>
 
 namespace perideal
 {

@@ -3,7 +3,7 @@
 #define perideal_boundary_surface_recovery_h
 
 #include <perideal/boundary/boundary_faces.h>
-#include <perideal/boundary/elastic_fit.h>
+#include <perideal/reconstruction/elastic_fit.h>
 #include <perideal/fem/elastic_fem.h>
 
 #include <vector>

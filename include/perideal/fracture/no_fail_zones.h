@@ -2,7 +2,7 @@
 #ifndef perideal_fracture_no_fail_zones_h
 #define perideal_fracture_no_fail_zones_h
 
-#include <perideal/mesh/facets.h>
+#include <perideal/geometry/facets.h>
 #include <perideal/nodes/nodes.h>
 
 #include <deal.II/base/parameter_handler.h>

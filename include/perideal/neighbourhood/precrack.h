@@ -2,7 +2,7 @@
 #ifndef perideal_neighbourhood_precrack_h
 #define perideal_neighbourhood_precrack_h
 
-#include <perideal/mesh/facets.h>
+#include <perideal/geometry/facets.h>
 #include <perideal/mesh/mesh.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -67,16 +67,16 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
-    bool has_taylor_ghosts() const { return traction_treatment == "taylor ghosts"; }
+    bool has_taylor_extension() const { return traction_treatment == "taylor ghosts"; }
     bool has_surface_nodes() const { return displacement_treatment == "surface nodes"; }
-    bool has_printed_transfer() const { return traction_treatment == "printed transfer"; }
-    bool has_transfer() const { return traction_treatment == "transfer" || has_printed_transfer(); }
+    bool has_published_transfer() const { return traction_treatment == "printed transfer"; }
+    bool has_transfer() const { return traction_treatment == "transfer" || has_published_transfer(); }
     bool has_line_to_point() const
     {
       return traction_treatment == "line to point" || traction_treatment == "printed line to point";
     }
     /// Whether tractions act on the nodes that a face has within a horizon, and not on its cell's.
-    bool act_in_depth() const { return has_transfer() || has_taylor_ghosts() || has_line_to_point(); }
+    bool act_in_depth() const { return has_transfer() || has_taylor_extension() || has_line_to_point(); }
   };
 
   /// A boundary condition ready to be evaluated.

@@ -3,7 +3,7 @@
 #define perideal_quadrature_adaptive_integration_h
 
 #include <perideal/nodes/nodes.h>
-#include <perideal/quadrature/cell_sections.h>
+#include <perideal/geometry/cell_sections.h>
 
 #include <deal.II/base/point.h>
 

@@ -2,7 +2,7 @@
 #ifndef perideal_quadrature_bonds_through_plane_h
 #define perideal_quadrature_bonds_through_plane_h
 
-#include <perideal/quadrature/body_rays.h>
+#include <perideal/geometry/body_rays.h>
 
 #include <deal.II/base/point.h>
 

@@ -3,9 +3,9 @@
 #define perideal_solvers_equilibrium_path_h
 
 #include <perideal/boundary/face_values.h>
-#include <perideal/boundary/held_nodes.h>
-#include <perideal/operators/bond_force.h>
-#include <perideal/operators/constrained_operator.h>
+#include <perideal/boundary/dirichlet_nodes.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/system/constrained_operator.h>
 #include <perideal/output/checkpoint.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
@@ -108,7 +108,7 @@ namespace perideal
     /// @param face_values that the force carries, which this object moves; null: none
     EquilibriumPath(BondForce<dim>                 &bonds,
                     const ConstrainedOperator<dim> &system,
-                    const HeldNodes<dim>           &held,
+                    const DirichletNodes<dim>           &held,
                     const Loads<dim>               &loads,
                     const Controls                 &controls,
                     FaceValues<dim>                *face_values = nullptr);
@@ -140,7 +140,7 @@ namespace perideal
     double face_reaction_square() const;
 
     BondForce<dim>       &bonds;
-    const HeldNodes<dim> &held;
+    const DirichletNodes<dim> &held;
     const Loads<dim>     &loads;
     const Controls        controls;
     FaceValues<dim>      *face_values;

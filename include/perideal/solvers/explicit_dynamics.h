@@ -2,10 +2,10 @@
 #ifndef perideal_solvers_explicit_dynamics_h
 #define perideal_solvers_explicit_dynamics_h
 
-#include <perideal/boundary/held_nodes.h>
-#include <perideal/operators/bond_force.h>
-#include <perideal/operators/contact_force.h>
-#include <perideal/operators/relative_damping.h>
+#include <perideal/boundary/dirichlet_nodes.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/contact_force.h>
+#include <perideal/operators/force/relative_damping.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -47,7 +47,7 @@ namespace perideal
     /// @param damping force over mass and velocity [1/s]
     /// The arguments must outlive this object.
     ExplicitDynamics(BondForce<dim>            &bonds,
-                     const HeldNodes<dim>      &held,
+                     const DirichletNodes<dim>      &held,
                      const Loads<dim>          &loads,
                      const std::vector<double> &mass,
                      const double               damping,
@@ -95,7 +95,7 @@ namespace perideal
 
   private:
     BondForce<dim>            &bonds;
-    const HeldNodes<dim>      &held;
+    const DirichletNodes<dim>      &held;
     const Loads<dim>          &loads;
     const std::vector<double> &mass;
     const double               damping, time_step;

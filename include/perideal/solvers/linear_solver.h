@@ -4,8 +4,8 @@
 
 #include <perideal/boundary/surface_nodes.h>
 #include <perideal/fem/elastic_fem.h>
-#include <perideal/operators/constrained_operator.h>
-#include <perideal/operators/null_space.h>
+#include <perideal/operators/system/constrained_operator.h>
+#include <perideal/operators/system/null_space.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -2,8 +2,8 @@
 #ifndef perideal_solvers_newton_h
 #define perideal_solvers_newton_h
 
-#include <perideal/operators/null_space.h>
-#include <perideal/operators/tangent_operator.h>
+#include <perideal/operators/system/null_space.h>
+#include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/solvers/equilibrium_path.h>
 #include <perideal/solvers/tangent_solver.h>
 
@@ -52,7 +52,7 @@ namespace perideal
                  TangentOperator<dim>     &tangent,
                  ConstrainedOperator<dim> &system,
                  TangentSolver<dim>       &linear,
-                 const HeldNodes<dim>     &held,
+                 const DirichletNodes<dim>     &held,
                  const Loads<dim>         &loads,
                  const NullSpace<dim>     &null_space,
                  const Controls           &controls,

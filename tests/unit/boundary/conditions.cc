@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/boundary_faces.h>
-#include <perideal/boundary/held_nodes.h>
+#include <perideal/boundary/dirichlet_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/boundary/nodal_forces.h>
 
@@ -85,10 +85,10 @@ TEST(BoundaryFaces, UnknownAndDoubleConditionsAreErrors)
   expect_input_error([&] { Scene({held("0", "0", ""), pulled}); }, {"both prescribed"});
 }
 
-TEST(HeldNodes, TakeTheBoundarysValue)
+TEST(DirichletNodes, TakeTheBoundarysValue)
 {
   const Scene        scene({held("0", "3*y*t", ""), held("3", "", "5")});
-  const HeldNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
   NodalVector        u = scene.field();
   u                    = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
@@ -114,10 +114,10 @@ TEST(HeldNodes, TakeTheBoundarysValue)
   EXPECT_EQ(sum(n_held), 14.);
 }
 
-TEST(HeldNodes, ReactionsAreSummedByCondition)
+TEST(DirichletNodes, ReactionsAreSummedByCondition)
 {
   const Scene        scene({held("0", "0", "0"), held("1", "1", "")});
-  const HeldNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
   NodalVector        force = scene.field();
   force                    = 2.;
   const auto reactions     = nodes.sum_by_condition(force, MPI_COMM_WORLD);
@@ -127,10 +127,10 @@ TEST(HeldNodes, ReactionsAreSummedByCondition)
   EXPECT_NEAR(reactions[1][1], 0., 1e-13);
 }
 
-TEST(HeldNodes, LayersTakeTheFieldAtTheirNodes)
+TEST(DirichletNodes, LayersTakeTheFieldAtTheirNodes)
 {
   const Scene        scene({held("0", "3*y*t", ""), held("3", "x+1", "5")});
-  const HeldNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 3);
+  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 3);
   NodalVector        u = scene.field();
   u                    = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
@@ -169,7 +169,7 @@ TEST(HeldNodes, LayersTakeTheFieldAtTheirNodes)
 }
 
 /// Where cells meet at hanging vertices too, layers are the same on any number of ranks.
-TEST(HeldNodes, LayersCrossRanks)
+TEST(DirichletNodes, LayersCrossRanks)
 {
   LoadParameters parameters;
   parameters.conditions = {held("0", "x", "0"), held("2", "", "y")};
@@ -180,7 +180,7 @@ TEST(HeldNodes, LayersCrossRanks)
       const auto mesh =
         test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3, k == 0 ? MPI_COMM_SELF : MPI_COMM_WORLD);
       const Nodes<2>     nodes(*mesh, NodeParameters{3.01});
-      const HeldNodes<2> layers(
+      const DirichletNodes<2> layers(
         *mesh, nodes, find_boundary_faces(*mesh, nodes), loads, resolve_boundaries(*mesh, loads), 4);
       n_held[k] = std::count(layers.mask().begin(), layers.mask().end(), 1);
     }
@@ -188,13 +188,13 @@ TEST(HeldNodes, LayersCrossRanks)
   EXPECT_EQ(sum(n_held[1]), n_held[0]);
 }
 
-TEST(HeldNodes, InfiniteValuesAreErrors)
+TEST(DirichletNodes, InfiniteValuesAreErrors)
 {
   // Finite at the boundary, a pole within.
   const Scene        scene({held("0", "0", "1/(x-0.0625)")}, 0.);
-  const HeldNodes<2> first(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> first(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
   first.check_finite(scene.loads, 1., MPI_COMM_WORLD);
-  const HeldNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 2);
+  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 2);
   expect_input_error([&] { nodes.check_finite(scene.loads, 1., MPI_COMM_WORLD); },
                      {"Boundary conditions/hold 0/u_y", "not a finite number"});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/boundary/held_nodes.h>
+#include <perideal/boundary/dirichlet_nodes.h>
 #include <perideal/boundary/surface_nodes.h>
 
 #include "bodies.h"
@@ -50,7 +50,7 @@ namespace
           }
 
         // Held in the prescribed component, at the face; free in the others, as the nodes of cells are.
-        const HeldNodes<dim> on_surface(surface.faces(), loads, boundaries, all.size());
+        const DirichletNodes<dim> on_surface(surface.faces(), loads, boundaries, all.size());
         for (LocalIndex i = 0; i < all.size(); ++i)
           for (int d = 0; d < dim; ++d)
             EXPECT_EQ(on_surface.mask()[dim * i + d] != 0, i >= real.size() && d == 1);

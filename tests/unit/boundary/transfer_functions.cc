@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/face_tractions.h>
-#include <perideal/boundary/printed_transfer.h>
+#include <perideal/boundary/published_transfer.h>
 #include <perideal/mesh/create_mesh.h>
 
 #include "bodies.h"
@@ -216,7 +216,7 @@ TEST(BalancedTransfer, IsTheTransferFunctionOnStraightSides)
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
   NodalVector balanced(owned, MPI_COMM_WORLD), printed(owned, MPI_COMM_WORLD);
   BalancedTransfer<2>(TransferFunctions<2>(nodes, faces)).add_tractions(loads, {{1}}, 1., balanced);
-  PrintedTransfer<2>(TransferFunctions<2>(nodes, faces), loads, {{1}}, 3.59, 0.)
+  PublishedTransfer<2>(TransferFunctions<2>(nodes, faces), loads, {{1}}, 3.59, 0.)
     .add_tractions(loads, {{1}}, 1., printed);
   for (LocalIndex i = 0; i < nodes.size(); ++i)
     if (std::abs(nodes.position[i][1] - 1.) < 0.5)
@@ -228,18 +228,18 @@ TEST(BalancedTransfer, IsTheTransferFunctionOnStraightSides)
 }
 
 /// The printed factor multiplies the force.
-TEST(PrintedTransfer, MultipliesTheForce)
+TEST(PublishedTransfer, MultipliesTheForce)
 {
   const auto     mesh = test::make_box<3>({5, 5, 4}, {1., 1., 0.8}, 0.25);
   const Scene<3> scene(*mesh);
   const auto     nodal = scene.of_nodes(
-    scene.forces_of(PrintedTransfer<3>(scene.functions, scene.loads, scene.boundaries, 3.59, 0.)));
+    scene.forces_of(PublishedTransfer<3>(scene.functions, scene.loads, scene.boundaries, 3.59, 0.)));
   const auto applied = scene.of_faces();
   EXPECT_LE((nodal.force - 3.59 / 2.59 * applied.force).norm(), 1e-12 * applied.force.norm());
 }
 
 /// What L does to the nodes against (2.17), sum by sum over dense matrices.
-TEST(PrintedTransfer, HasTheSumsOfLAsPrinted)
+TEST(PublishedTransfer, HasTheSumsOfLAsPrinted)
 {
   const auto            mesh = test::make_box<2>({6, 5}, {1., 0.9}, 0.2);
   const Nodes<2>        nodes(*mesh, NodeParameters{3.01});
@@ -253,7 +253,7 @@ TEST(PrintedTransfer, HasTheSumsOfLAsPrinted)
   const Loads<2>           loads(text);
   const double             chi = 3.59, lambda = 7.;
   TransferFunctions<2>     functions(nodes, faces);
-  const PrintedTransfer<2> transfer(functions, loads, {{0, 3}}, chi, lambda);
+  const PublishedTransfer<2> transfer(functions, loads, {{0, 3}}, chi, lambda);
   dealii::IndexSet         owned(2 * nodes.n_global);
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
   NodalVector force(owned, MPI_COMM_WORLD);

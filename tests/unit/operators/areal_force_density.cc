@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/areal_force_density.h>
-#include <perideal/operators/partial_stress.h>
+#include <perideal/operators/post/areal_force_density.h>
+#include <perideal/operators/post/partial_stress.h>
 
 #include <deal.II/grid/grid_tools.h>
 

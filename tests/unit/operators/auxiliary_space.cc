@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
 #include <perideal/mesh/parent_mesh.h>
-#include <perideal/operators/auxiliary_space.h>
-#include <perideal/operators/constrained_operator.h>
+#include <perideal/operators/system/auxiliary_space.h>
+#include <perideal/operators/system/constrained_operator.h>
 
 #include "bodies.h"
 #include "testing.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/bond_force.h>
-#include <perideal/operators/bond_operator.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/linear/bond_operator.h>
 #include <perideal/quadrature/bond_volume.h>
 
 #include "bodies.h"

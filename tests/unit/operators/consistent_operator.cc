@@ -3,7 +3,7 @@
 #include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/elastic_state.h>
 #include <perideal/materials/models.h>
-#include <perideal/operators/consistent_operator.h>
+#include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/contact_force.h>
+#include <perideal/operators/force/contact_force.h>
 
 #include "bodies.h"
 #include "testing.h"

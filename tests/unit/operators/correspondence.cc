@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/materials/models.h>
-#include <perideal/operators/correspondence_tangent.h>
+#include <perideal/operators/linear/correspondence_tangent.h>
 
 #include <deal.II/base/mpi.h>
 

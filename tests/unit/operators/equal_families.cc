@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/equal_families.h>
-#include <perideal/operators/family_operator.h>
-#include <perideal/operators/family_weights.h>
+#include <perideal/operators/weights/equal_families.h>
+#include <perideal/operators/linear/family_operator.h>
+#include <perideal/operators/weights/family_weights.h>
 
 #include "bodies.h"
 #include "dense_matrix.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/tangent_operator.h>
+#include <perideal/operators/linear/tangent_operator.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/stable_time_step.h>
+#include <perideal/operators/system/stable_time_step.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include "bodies.h"
@@ -88,7 +88,7 @@ namespace
     std::unique_ptr<Mesh<2>>            mesh;
     test::Body<2>                       body;
     Loads<2>                            loads;
-    HeldNodes<2>                        held;
+    DirichletNodes<2>                        held;
     std::vector<double>                 mass;
     std::shared_ptr<BondWeights<2>>     weights;
     std::unique_ptr<BondForce<2>>       bonds;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/block_jacobi.h>
+#include <perideal/operators/system/block_jacobi.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 
 #include <deal.II/lac/solver_cg.h>
@@ -43,7 +43,7 @@ namespace
       LoadParameters text;
       text.conditions = conditions;
       loads           = Loads<dim>(text);
-      held            = HeldNodes<dim>(
+      held            = DirichletNodes<dim>(
         find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size());
       weights = weigh(variant, 1.);
       bonds   = create_bond_force<dim>(*weights);
@@ -98,7 +98,7 @@ namespace
 
     test::Body<dim>                           body;
     Loads<dim>                                loads;
-    HeldNodes<dim>                            held;
+    DirichletNodes<dim>                            held;
     std::shared_ptr<BondWeights<dim>>         weights;
     std::unique_ptr<BondForce<dim>>           bonds;
     std::unique_ptr<ConstrainedOperator<dim>> system;

@@ -41,7 +41,7 @@ namespace
       LoadParameters text;
       text.conditions = conditions;
       loads           = Loads<2>(text);
-      held            = HeldNodes<2>(
+      held            = DirichletNodes<2>(
         find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size());
       ModelParameters model;
       model.model = variant.first;
@@ -74,7 +74,7 @@ namespace
     test::Body<2>                           body;
     std::shared_ptr<MirrorLayer<2>>         mirror;
     Loads<2>                                loads;
-    HeldNodes<2>                            held;
+    DirichletNodes<2>                            held;
     NullSpace<2>                            null_space;
     SolverParameters                        parameters;
     std::unique_ptr<BondForce<2>>           bonds;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_breaking_bonds_h
+#define perideal_operators_force_breaking_bonds_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/rest_regions.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * What every BondForce has but the forces: the nodes where they are, the bonds with their lengths at rest
+   * and the stretches at which they break, and what became of them.
+   */
+  template <int dim>
+  class BreakingBonds : public BondForce<dim>
+  {
+  public:
+    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void        judge_bonds(const bool judge) override { judges_bonds = judge; }
+    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
+    GlobalIndex n_broken_now() const override;
+    std::vector<BondEnds> broken_bonds() const override;
+    void                  restore_broken(const std::vector<BondEnds> &broken) override;
+    const BondList       &bond_list() const override { return bonds; }
+    const NodeRecord     *positions() const override { return position.data(); }
+    std::vector<double>   damage() const override { return share_of_family(broken_volume); }
+    std::vector<double>   cut_share() const override { return share_of_family(cut_volume); }
+    double                share_computed() const override { return regions.share_awake(); }
+
+  protected:
+    /// @param has_sums whether forces need sums over families first
+    BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
+                  const BondList                             &bonds,
+                  const bool                                  has_sums);
+
+    /// False of padding, and of bonds that were cut or broke.
+    virtual bool carries_force(const BondIndex slot) const = 0;
+    /// Makes all weights of a bond zero.
+    virtual void clear_weights(const BondIndex slot) = 0;
+
+    /// Whether compute() has to look for bonds that break.
+    bool can_break() const { return judges_bonds && !critical_stretch.empty(); }
+
+    /// Takes the displacement; from here on bonds break now. Collective.
+    /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
+    /// null
+    void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
+
+    /// Breaks a bond, the weights of which the caller has looked at.
+    void break_bond(const BondIndex slot, const LocalIndex near);
+
+    /// The row that holds the slot.
+    LocalIndex near_end(const BondIndex slot) const;
+
+    std::size_t breaking_memory() const;
+
+    std::shared_ptr<const Families<dim>> families;
+    BondList                             bonds;
+    /// Lengths at rest by slot [m].
+    std::vector<double> rest_length;
+    /// Stretches at which bonds break, by slot; empty where nothing breaks.
+    std::vector<float>                critical_stretch;
+    RestRegions                       regions;
+    dealii::AlignedVector<NodeRecord> position, forces;
+
+  private:
+    /// Takes out a bond: its weights and its limit.
+    void remove(const BondIndex slot);
+    /// Adds the volumes behind a bond to those of its owned ends.
+    void                lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const;
+    void                measure_rest_lengths();
+    std::vector<double> share_of_family(const std::vector<double> &volume) const;
+
+    bool                judges_bonds = true;
+    std::vector<double> family_volume, broken_volume, cut_volume;
+    /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
+    std::size_t n_cut = 0, n_lost_before = 0;
+    NodalVector ghosted;
+  };
+} // namespace perideal
+
+#endif

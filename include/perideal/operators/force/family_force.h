@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_family_force_h
+#define perideal_operators_force_family_force_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/operators/force/breaking_bonds.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The nonlinear loops for models of one family shape. Weights are kept in single precision, which
+   * halves what the loops load; it is one perturbation of 6e-8 of the material, the same in forces and
+   * energy. They are kept over the largest, so that it is also the same in all units of length and force, and
+   * nothing leaves the range of single precision. Lengths, sums and forces are in double precision.
+   */
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  class FamilyForce : public BreakingBonds<dim>
+  {
+  public:
+    using Weights = FamilyWeights<dim, n_sums, own_force_weights>;
+
+    explicit FamilyForce(const Weights &weights);
+
+    void                reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                               const typename BondForce<dim>::Reweigh        &reweigh) override;
+    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void                visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
+    void                restore_broken(const std::vector<BondEnds> &broken) override;
+    double              strain_energy() const override;
+    double              released_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double> dilatation() const override
+    {
+      if constexpr (n_sums == 0)
+        return std::vector<double>(families->n_owned(), 0.);
+      else
+        return {sums[0].begin(), sums[0].begin() + families->n_owned()};
+    }
+    std::size_t memory_consumption() const override;
+
+  private:
+    using States = std::array<double, n_sums>;
+
+    /// A bond that broke in the last compute(), with the weights it had.
+    struct BrokenBond
+    {
+      BondIndex  slot;
+      LocalIndex near, far;
+      States     near_sum, far_sum, near_force, far_force;
+      double     stiffness;
+    };
+
+    /// Sums over a family before or after a break: with sum and force weights, and
+    /// the rate of the latter.
+    struct FamilySums
+    {
+      States sum = {}, force = {}, force_rate = {};
+    };
+
+    using BreakingBonds<dim>::families;
+    using BreakingBonds<dim>::bonds;
+    using BreakingBonds<dim>::rest_length;
+    using BreakingBonds<dim>::critical_stretch;
+    using BreakingBonds<dim>::regions;
+    using BreakingBonds<dim>::position;
+    using BreakingBonds<dim>::forces;
+
+    bool carries_force(const BondIndex slot) const override;
+    void clear_weights(const BondIndex slot) override;
+
+    /// The weights as they are.
+    double stiffness(const BondIndex slot) const { return unit.stiffness * weights.stiffness[slot]; }
+    double sum_weight(const unsigned int a, const BondCursor::End &end) const
+    {
+      return unit.sum * at_end(weights.sum_weight, a, end);
+    }
+    double force_weight(const unsigned int a, const BondCursor::End &end) const
+    {
+      return unit.force * at_end(weights.force_weights(), a, end);
+    }
+    template <typename Sums>
+    static double at_end(const Sums &sums, const unsigned int a, const BondCursor::End &end)
+    {
+      if constexpr (n_sums == 0)
+        return 0.;
+      else
+        return (end.is_near ? sums[a].near : sums[a].far)[end.slot];
+    }
+
+    /// Copies weights, which become single precision. Collective.
+    void take(const Weights &weights);
+    /// Sums and forces of the bonds there are; with can_break, those too long break before.
+    template <bool can_break>
+    void compute_forces(NodalVector &force);
+    /// As compute_forces<true>(), with families weighed anew where bonds break.
+    void compute_and_reweigh(NodalVector &force);
+    bool any_too_long() const;
+    /// Weighs the families of the owned ends of bonds anew.
+    /// @param first of the lost bonds
+    void reweigh_ends(const std::size_t first);
+
+    /// The passes over all bonds; @p can_break: with the check of lengths.
+    template <bool can_break>
+    void sum_over_families();
+    template <bool can_break>
+    void sum_forces();
+
+    /// Breaks those of a group of bonds that are too long.
+    /// @param excess of their lengths over the largest ones [m]
+    void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &excess);
+
+    /// eps and its rate of one bond, from the end @p i.
+    struct Motion
+    {
+      double eps, rate;
+    };
+    template <typename Velocity>
+    Motion
+    motion(const BondIndex slot, const LocalIndex i, const LocalIndex j, const Velocity &velocity) const;
+
+    double family_energy(const LocalIndex i, const FamilySums &sums) const;
+
+    /// Slots of the bonds of an owned node.
+    std::vector<BondCursor::End> slots_of(const LocalIndex i) const;
+
+    FamilyMaps<n_sums> map;
+    /// In units.
+    SlotWeights<float, n_sums, own_force_weights> weights;
+    WeightUnits                                   unit;
+    std::vector<double>                           energy;
+
+    std::vector<BrokenBond> broken_now;
+    /// Where families are weighed anew: how, what the breaking in the last compute() has added to the
+    /// forces, and the energy before.
+    typename BondForce<dim>::Reweigh        reweigh;
+    std::shared_ptr<const Weights>          current_weights;
+    NodalVector                             force_change;
+    double                                  energy_before = 0;
+    std::array<std::vector<double>, n_sums> sums, state;
+    NodalVector                             ghosted_states;
+  };
+} // namespace perideal
+
+#endif

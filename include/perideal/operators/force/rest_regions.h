@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_rest_regions_h
+#define perideal_operators_force_rest_regions_h
+
+#include <perideal/base/types.h>
+#include <perideal/neighbourhood/bond_list.h>
+#include <perideal/neighbourhood/families.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Which rows of a bond list have anything to compute, in blocks of consecutive
+   * rows: where a node and all its neighbours are still exactly where they were, forces are
+   * exactly zero. A block that a wave has reached stays awake.
+   */
+  class RestRegions
+  {
+  public:
+    static constexpr LocalIndex block_size = 16;
+
+    /// @param through_states forces follow from states of the neighbours, which follow from theirs
+    template <int dim>
+    RestRegions(const Families<dim> &families, const BondList &bonds, const bool through_states);
+
+    /// Looks at the nodes where all were at rest. Collective.
+    /// @param has_moved of a local node
+    template <typename HasMoved>
+    void update(const HasMoved &has_moved);
+
+    bool sums_awake(const LocalIndex block) const { return in_sums[block] != 0; }
+    bool forces_awake(const LocalIndex block) const { return in_forces[block] != 0; }
+
+    /// Calls visit(j) with the owned nodes whose rows may hold node @p i as their far end.
+    template <typename Visit>
+    void visit_rows_with(const LocalIndex i, const Visit &visit) const
+    {
+      for (const LocalIndex block : beside[block_of(i)])
+        for (LocalIndex j = block * block_size; block < n_row_blocks && j < (block + 1) * block_size && j < i;
+             ++j)
+          visit(j);
+    }
+
+    std::size_t memory_consumption() const;
+
+    /// Mean share of the bonds of all ranks that were awake in update(). Collective.
+    double share_awake() const;
+
+  private:
+    LocalIndex block_of(const LocalIndex node) const;
+    void       spread();
+
+    LocalIndex n_owned, n_local, n_row_blocks;
+    bool       through_states;
+    MPI_Comm   communicator;
+    bool       all_awake   = false;
+    double     awake_slots = 0, all_slots = 0;
+
+    /// Blocks of owned rows, then of ghosts; those that hold the neighbours of each row block.
+    std::vector<std::uint8_t>            moved, in_sums, in_forces, beside_ghosts;
+    std::vector<std::vector<LocalIndex>> beside;
+    std::vector<BondIndex>               slots;
+  };
+
+  template <typename HasMoved>
+  void RestRegions::update(const HasMoved &has_moved)
+  {
+    double awake = 0, all = 0;
+    if (!all_awake)
+      {
+        for (LocalIndex i = 0; i < n_local; ++i)
+          if (!moved[block_of(i)] && has_moved(i))
+            moved[block_of(i)] = 1;
+        spread();
+      }
+    for (LocalIndex block = 0; block < n_row_blocks; ++block)
+      {
+        all += slots[block];
+        awake += in_forces[block] ? slots[block] : 0;
+      }
+    all_slots += all;
+    awake_slots += awake;
+  }
+} // namespace perideal
+
+#endif

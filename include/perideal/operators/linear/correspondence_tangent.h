@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_linear_correspondence_tangent_h
+#define perideal_operators_linear_correspondence_tangent_h
+
+#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/linear/tangent_operator.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The derivative of CorrespondenceForce, negative as that of a force that resists: the Hessian of the
+   * energy of CorrespondenceRows with dP/dF of the law at each node. Until something was linearised it is
+   * that of the body at rest, which is linear elasticity whatever the law.
+   */
+  template <int dim>
+  class CorrespondenceTangent : public TangentOperator<dim>
+  {
+  public:
+    CorrespondenceTangent(const std::shared_ptr<const Families<dim>>           &families,
+                          const std::shared_ptr<const CorrespondenceRows<dim>> &rows,
+                          const LawsByMaterial<dim>                            &laws);
+
+    /// @param force a CorrespondenceForce of the same rows
+    void linearise(const BondForce<dim> &force) override;
+
+    void vmult(NodalVector &force, const NodalVector &displacement) const override;
+    void internal_force(NodalVector &force, const NodalVector &displacement) const override;
+    void add_increments(NodalVector &force) const override;
+    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
+    bool        is_symmetric() const override { return true; }
+    std::size_t memory_consumption() const override;
+
+    /// Trace of the gradient of the last vmult() or internal_force(), by owned node.
+    std::vector<double>                 dilatation() const override;
+    std::vector<dealii::Tensor<1, dim>> support_forces() const override { return rows->support_forces(); }
+
+  private:
+    using Moduli = std::array<double, dim * dim * dim * dim>;
+
+    static Moduli          flat(const dealii::Tensor<4, dim> &tangent);
+    dealii::Tensor<4, dim> tangent_of(const LocalIndex i) const;
+    void                   sum_forces(NodalVector &force) const;
+
+    std::shared_ptr<const CorrespondenceRows<dim>> rows;
+    /// dP/dF [Pa]: by material where laws are linear or the body at rest, else by node.
+    std::vector<Moduli>     moduli;
+    std::vector<LocalIndex> moduli_of;
+    bool                    is_linear;
+  };
+} // namespace perideal
+
+#endif

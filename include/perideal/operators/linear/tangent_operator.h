@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_linear_tangent_operator_h
+#define perideal_operators_linear_tangent_operator_h
+
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/linear/bond_operator.h>
+
+#include <memory>
+
+namespace perideal
+{
+  /**
+   * The derivative of a BondForce with respect to the displacement (PDBC eq. B.4), negative as that of a
+   * force that resists, in closed form and matrix-free. With p = (|xi|/|y_j - y_i|) (y_j - y_i), the
+   * magnitude m = sum_a weight[a]_j A_a + stiffness eps and g = m |xi|/|y_j - y_i|, a bond's force m p
+   * changes under d u by
+   *
+   *     dF = ( sum_a weight[a]_j dA_a + k' p.(du_j - du_i) ) p + g (du_j - du_i),   k' = stiffness -
+   * g/|xi|^2,
+   *
+   * where the sums of families change by d s_a = sum_j sum[a]_j p.(du_j - du_i). Bonds that were cut or
+   * broke carry nothing.
+   *
+   * The weights are in double precision, those of the force in single: the tangent is off by 6e-8 of the
+   * material.
+   */
+  template <int dim>
+  class TangentOperator : public BondOperator<dim>
+  {
+  public:
+    /// Takes the state of the last compute() of the force, which is of the same weights. Until the first
+    /// call the body is at rest and has all its bonds.
+    virtual void linearise(const BondForce<dim> &force) = 0;
+
+    /// Adds the force [N] by what prescribed face values, which the operator itself carries, have still to
+    /// move; nothing where it carries none. Collective.
+    virtual void add_increments(NodalVector &) const {}
+  };
+
+  /// The tangent of the force of weighed bonds, which it shares.
+  template <int dim>
+  std::unique_ptr<TangentOperator<dim>>
+  create_tangent(const std::shared_ptr<const BondWeights<dim>> &weights);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_system_largest_eigenvalue_h
+#define perideal_operators_system_largest_eigenvalue_h
+
+#include <perideal/operators/system/constrained_operator.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  /// Largest eigenvalue of the preconditioned operator, from Lanczos steps, ten
+  /// of which underestimate it by a few per cent, times 1.1. Steps that an
+  /// indefinite or unsymmetric operator spoils do not count. Collective.
+  template <int dim, typename Preconditioner>
+  double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system,
+                                     const Preconditioner           &preconditioner,
+                                     const unsigned int              steps = 10)
+  {
+    NodalVector source, solution;
+    system.initialize(source);
+    system.initialize(solution);
+    // A vector without structure that follows from the positions, since numbers depend on the ranks.
+    const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
+    for (std::size_t i = 0; i < source.locally_owned_size(); ++i)
+      if (!system.is_held(i))
+        {
+          const std::size_t node = i / dim;
+          double            x    = 1. + static_cast<double>(i % dim);
+          for (int d = 0; d < dim; ++d)
+            x += (12.9898 + 7.1 * d) * nodes.position[node][d] / nodes.horizon[node];
+          source.local_element(i) = std::fmod(std::abs(43758.5453 * std::sin(x)), 1.) - 0.5;
+        }
+    double                         largest = 0;
+    dealii::IterationNumberControl control(steps, 1e-300);
+    dealii::SolverCG<NodalVector>  cg(control);
+    cg.connect_eigenvalues_slot(
+      [&](const std::vector<double> &eigenvalues) {
+        // Not a number where the operator is indefinite or not symmetric.
+        for (const double value : eigenvalues)
+          if (std::isfinite(value))
+            largest = std::max(largest, value);
+      },
+      true);
+    cg.solve(system, solution, source, preconditioner);
+    return 1.1 * largest;
+  }
+} // namespace perideal
+
+#endif

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_weights_correspondence_rows_h
+#define perideal_operators_weights_correspondence_rows_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/boundary/face_values.h>
+#include <perideal/materials/correspondence.h>
+#include <perideal/neighbourhood/families.h>
+#include <perideal/operators/weights/add_block.h>
+#include <perideal/reconstruction/face_gradient.h>
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/tensor.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * The energy of the correspondence model (materials/correspondence.h) as rows: what node i needs of its
+   * neighbours for G_i u and z_ij, and what they get back,
+   *
+   *     dU/du_k = sum_i [ (V_i P_i - sum_j b_ij z_ij (x) xi_ij) c_ik ] + bonds b_ij z_ij.
+   *
+   * Every node is visited once, with all of its family: gradient, stress, forces. What stands for P is the
+   * caller's: the stress of a law, or a tangent on a gradient. What a rank finds for other ranks' nodes is
+   * sent to them, instead of the stresses of those nodes to it.
+   *
+   * Local numbers are those of the families, behind them the ghosts that only the face gradient knows.
+   */
+  template <int dim>
+  class CorrespondenceRows
+  {
+  public:
+    using Gradient = dealii::Tensor<2, dim>;
+
+    /// @param gradient of the faces; null: that of the family
+    /// @param prescribed values at faces; null with the family's gradient. Collective.
+    CorrespondenceRows(const std::shared_ptr<const Families<dim>>     &families,
+                       const std::shared_ptr<const FaceGradient<dim>> &gradient,
+                       const std::shared_ptr<const FaceValues<dim>>   &prescribed,
+                       const Correspondence<dim>                      &model,
+                       const SolidOf<dim>                             &solid_of);
+
+    LocalIndex n_owned() const { return families->n_owned(); }
+    bool       by_faces() const { return gradient != nullptr; }
+
+    /// Weighs the families of owned nodes anew.
+    /// @param is_gone of bonds between an owned node and another local one
+    void reweigh(const std::vector<LocalIndex>                                 &nodes,
+                 const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone);
+
+    /// Whether the bonds of an owned node span space.
+    bool has_gradient(const LocalIndex i) const { return spans_space[i]; }
+
+    /// Which prescribed values at faces count: none, those that they have, or what they have still to move.
+    enum class AtFaces
+    {
+      nothing,
+      values,
+      increments
+    };
+
+    /// The displacement that is looked at from now on. Collective.
+    void read(const NodalVector &displacement, const AtFaces at_faces) const;
+
+    /// Calls visit(i, G_i u) for the owned nodes.
+    template <typename Visit>
+    void visit_gradients(const Visit &visit) const
+    {
+      for_all_nodes(
+        [&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *) { visit(i, to_tensor(g)); });
+    }
+
+    /// dU/du [N] of owned nodes. Collective.
+    /// @param stress_of P [Pa] by owned node and its gradient
+    template <typename StressOf>
+    void forces(NodalVector &force, const StressOf &stress_of) const;
+
+    /// Energy of the penalty of a node's family [J], at the displacement read and its gradient.
+    double penalty_energy(const LocalIndex i, const Gradient &g) const;
+
+    /// Forces that the supports exert on the body at the prescribed face values [N], by entry, of the last
+    /// forces().
+    const std::vector<dealii::Tensor<1, dim>> &support_forces() const { return support; }
+
+    /// Of the Hessian of U with dP/dF given by node [Pa]: blocks on the diagonal, and pieces as of
+    /// BondOperator. Collective.
+    using TangentOf = std::function<dealii::Tensor<4, dim>(const LocalIndex)>;
+    std::vector<dealii::Tensor<2, dim>> diagonal_blocks(const TangentOf &tangent_of) const;
+    void assemble(const TangentOf &tangent_of, const AddBlock &add) const;
+
+    std::size_t memory_consumption() const;
+
+  private:
+    /// What a node at prescribed face values has in the place of its row: c by component.
+    struct BoundaryRow
+    {
+      std::vector<dealii::Tensor<2, dim>> c;
+      std::size_t                         first_entry, last_entry;
+    };
+    using BoundaryRows = std::map<LocalIndex, BoundaryRow>;
+
+    void number_face_ghosts();
+    void make_boundary_rows();
+    void weigh(const LocalIndex i, const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone);
+
+    static Gradient to_tensor(const Lanes (&g)[dim])
+    {
+      Gradient result;
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          result[a][b] = g[b][a];
+      return result;
+    }
+
+    /// Value of a prescribed component as read() wants it.
+    double at_face(const std::size_t entry, const int component) const;
+
+    template <typename Visit>
+    void for_all_nodes(const Visit &visit) const;
+    template <typename StressOf>
+    void sum_forces(const StressOf &stress_of) const;
+    /// The gradient of a node at prescribed faces, by column.
+    void add_at_faces(const BoundaryRow &row, const LocalIndex i, Lanes (&g)[dim]) const;
+    /// Its forces, t being its stress times its volume by column.
+    void pull_at_faces(const BoundaryRow &row, const LocalIndex i, const Lanes (&t)[dim]) const;
+    void collect(NodalVector &force) const;
+
+    /// The row of a node: c by component.
+    struct DenseRow
+    {
+      std::vector<LocalIndex>             column;
+      std::vector<dealii::Tensor<2, dim>> c;
+    };
+    DenseRow    dense_row(const LocalIndex i) const;
+    GlobalIndex global_number(const LocalIndex k) const
+    {
+      return k < families->n_local() ? families->global_number(k) : face_ghost[k - families->n_local()];
+    }
+
+    std::shared_ptr<const Families<dim>>     families;
+    std::shared_ptr<const FaceGradient<dim>> gradient;
+    std::shared_ptr<const FaceValues<dim>>   prescribed;
+    Correspondence<dim>                      model;
+    /// By material [Pa].
+    std::map<dealii::types::material_id, double> penalty_modulus;
+
+    /// Members of owned families with a weight, [first[i], first[i+1]).
+    std::vector<BondIndex>              first = {0};
+    std::vector<LocalIndex>             member;
+    std::vector<dealii::Tensor<1, dim>> member_c;
+    std::vector<double>                 penalty;
+    std::vector<bool>                   spans_space;
+    /// Columns of the face gradient in the numbers of here.
+    std::vector<LocalIndex>  face_column;
+    std::vector<GlobalIndex> face_ghost;
+    BoundaryRows             boundary_rows;
+
+    // What read() leaves, and forces().
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    std::vector<LocalIndex>                                    ghost_number;
+    dealii::AlignedVector<NodeRecord>                          positions;
+    mutable dealii::AlignedVector<NodeRecord>                  displacements, node_forces;
+    mutable NodalVector                                        ghosted, ghosted_forces;
+    mutable AtFaces                                            reading = AtFaces::nothing;
+    mutable std::vector<dealii::Tensor<1, dim>>                support;
+  };
+
+  template <int dim>
+  template <typename Visit>
+  void CorrespondenceRows<dim>::for_all_nodes(const Visit &visit) const
+  {
+    const NodeRecord *u    = displacements.data();
+    auto              next = boundary_rows.begin();
+    for (LocalIndex i = 0; i < n_owned(); ++i)
+      {
+        Lanes              g[dim]   = {};
+        const BoundaryRow *boundary = nullptr;
+        if (next != boundary_rows.end() && next->first == i)
+          boundary = &(next++)->second;
+        if (boundary != nullptr)
+          add_at_faces(*boundary, i, g);
+        else if (by_faces())
+          {
+            const auto &rows = gradient->rows();
+            for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
+              for (int b = 0; b < dim; ++b)
+                g[b] += lanes(u[face_column[k]]) * rows.value[k][b];
+          }
+        else
+          {
+            const Lanes ui = lanes(u[i]);
+            for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+              {
+                const Lanes difference = lanes(u[member[k]]) - ui;
+                for (int b = 0; b < dim; ++b)
+                  g[b] += difference * member_c[k][b];
+              }
+          }
+        visit(i, g, boundary);
+      }
+  }
+
+  template <int dim>
+  template <typename StressOf>
+  void CorrespondenceRows<dim>::sum_forces(const StressOf &stress_of) const
+  {
+    const NodeRecord *u = displacements.data(), *x = positions.data();
+    NodeRecord       *f = node_forces.data();
+    std::fill(node_forces.begin(), node_forces.end(), NodeRecord{});
+    const bool stabilised = model.is_stabilised(), faces = by_faces(), has_bonds = stabilised || !faces;
+    for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *boundary) {
+      const Gradient stress = families->volume[i] * stress_of(i, to_tensor(g));
+      Lanes          t[dim] = {};
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b)
+          t[b][a] = stress[a][b];
+      const Lanes ui = lanes(u[i]), xi = lanes(x[i]);
+      Lanes       own = {};
+      for (BondIndex k = first[i]; has_bonds && k < first[i + 1]; ++k)
+        {
+          const LocalIndex j    = member[k];
+          Lanes            pull = {};
+          if (stabilised)
+            {
+              const Lanes bond = lanes(x[j]) - xi;
+              Lanes       z    = lanes(u[j]) - ui;
+              for (int b = 0; b < dim; ++b)
+                z -= g[b] * bond[b];
+              pull = z * penalty[k];
+              if (faces)
+                for (int b = 0; b < dim; ++b)
+                  t[b] -= pull * bond[b];
+            }
+          if (!faces)
+            for (int b = 0; b < dim; ++b)
+              pull += t[b] * member_c[k][b];
+          lanes(f[j]) += pull;
+          own -= pull;
+        }
+      lanes(f[i]) += own;
+      if (!faces)
+        return;
+      if (boundary != nullptr)
+        {
+          pull_at_faces(*boundary, i, t);
+          return;
+        }
+      const auto &rows = gradient->rows();
+      for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
+        for (int b = 0; b < dim; ++b)
+          lanes(f[face_column[k]]) += t[b] * rows.value[k][b];
+    });
+  }
+
+  template <int dim>
+  template <typename StressOf>
+  void CorrespondenceRows<dim>::forces(NodalVector &force, const StressOf &stress_of) const
+  {
+    sum_forces(stress_of);
+    collect(force);
+  }
+} // namespace perideal
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_reconstruction_point_interpolation_h
+#define perideal_reconstruction_point_interpolation_h
+
+#include <perideal/base/types.h>
+#include <perideal/mesh/mesh.h>
+#include <perideal/nodes/cell_graph.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Values at points of the body or its boundary from those of the nodes around.
+   *
+   * v(x) is the moving least squares through the vertex neighbours, of one material, of the cell that x lies
+   * in; where it lies on a face, an edge or a vertex, the mean over the cells that share it. Linear fields
+   * are reproduced.
+   */
+  template <int dim>
+  class PointInterpolation
+  {
+  public:
+    /// A point [m] and the parameter that asks for it.
+    struct NamedPoint
+    {
+      std::string        parameter;
+      dealii::Point<dim> position;
+    };
+
+    /// An owned node and its share of a value.
+    using Share = std::pair<LocalIndex, double>;
+
+    /// No points.
+    PointInterpolation() = default;
+
+    /// All ranks give the same points. Collective.
+    /// @throws InputError naming a point outside the body.
+    PointInterpolation(const Mesh<dim>               &mesh,
+                       const CellGraph<dim>          &graph,
+                       const std::vector<NamedPoint> &points);
+
+    /// The shares of this rank's nodes in the value at each point.
+    const std::vector<std::vector<Share>> &shares() const { return shares_of_points; }
+
+    /// Values at the points of a field with dim components a node. Collective.
+    std::vector<dealii::Tensor<1, dim>> evaluate(const NodalVector &field) const;
+
+  private:
+    std::vector<std::vector<Share>> shares_of_points;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/nodes/node_partitioner.h>
+#include <perideal/nodes/cell_graph.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <numeric>
+
+namespace perideal
+{
+  template <int dim>
+  CellGraph<dim>::CellGraph(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
+    : position(nodes.position)
+    , material(nodes.material)
+    , communicator(nodes.communicator)
+    , n_owned_nodes(nodes.size())
+    , first_global(nodes.first_global)
+    , n_global(nodes.n_global)
+    , node_of_cell(nodes.node_of_cell)
+  {
+    exchange_ghosts(mesh);
+    collect_cells_at_vertices(mesh);
+    if (mesh.material_ids.size() > 1)
+      exchange_second_layer(mesh);
+    local_number_of_ghost.clear();
+  }
+
+  template <int dim>
+  LocalIndex CellGraph<dim>::add_ghost(const Ghost &ghost)
+  {
+    if (ghost.first >= first_global && ghost.first < first_global + n_owned_nodes)
+      return static_cast<LocalIndex>(ghost.first - first_global);
+    const auto inserted = local_number_of_ghost.insert({ghost.first, n_local()});
+    if (inserted.second)
+      {
+        ghost_number.push_back(ghost.first);
+        position.push_back(ghost.second.first);
+        material.push_back(ghost.second.second);
+      }
+    return inserted.first->second;
+  }
+
+  template <int dim>
+  void CellGraph<dim>::exchange_ghosts(const Mesh<dim> &mesh)
+  {
+    dealii::GridTools::exchange_cell_data_to_ghosts<Ghost, dealii::Triangulation<dim>>(
+      mesh.triangulation,
+      [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghost> {
+        const LocalIndex i = node_of(cell);
+        return Ghost(first_global + i, {position[i], material[i]});
+      },
+      [&](const Cell &cell, const Ghost &ghost) {
+        node_of_cell[cell->active_cell_index()] = add_ghost(ghost);
+      });
+  }
+
+  namespace
+  {
+    /// Calls visit(vertex) for the vertices of a cell and for those that hang on
+    /// its edges and faces (p4est: one on the middle of each that is refined).
+    template <int dim, typename Cell, typename Visit>
+    void visit_vertices(const Cell &cell, const Visit &visit)
+    {
+      for (const unsigned int v : cell->vertex_indices())
+        visit(cell->vertex_index(v));
+      for (const unsigned int l : cell->line_indices())
+        if (cell->line(l)->has_children())
+          visit(cell->line(l)->child(0)->vertex_index(1));
+      if constexpr (dim == 3)
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->has_children())
+            visit(cell->face(f)->child(0)->vertex_index(3));
+    }
+  } // namespace
+
+  template <int dim>
+  void CellGraph<dim>::collect_cells_at_vertices(const Mesh<dim> &mesh)
+  {
+    const auto &triangulation = mesh.triangulation;
+    first.assign(triangulation.n_vertices() + 1, 0);
+    const auto for_each_pair = [&](const auto &act) {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (!cell->is_artificial())
+          visit_vertices<dim>(cell, [&](const unsigned int vertex) { act(vertex, node_of(cell)); });
+    };
+    for_each_pair([&](const unsigned int vertex, const LocalIndex) { ++first[vertex + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    cells.resize(first.back());
+    std::vector<unsigned int> next(first.begin(), first.end() - 1);
+    for_each_pair([&](const unsigned int vertex, const LocalIndex node) { cells[next[vertex]++] = node; });
+  }
+
+  template <int dim>
+  std::vector<LocalIndex> CellGraph<dim>::cells_around(const Cell &cell) const
+  {
+    if (!cell->is_locally_owned())
+      return around_ghost.at(node_of(cell));
+    std::vector<LocalIndex> result = {node_of(cell)};
+    visit_vertices<dim>(cell, [&](const unsigned int vertex) { add_cells_at(vertex, result); });
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  template <int dim>
+  void CellGraph<dim>::exchange_second_layer(const Mesh<dim> &mesh)
+  {
+    using Ghosts = std::vector<Ghost>;
+    std::vector<std::pair<LocalIndex, Ghosts>> received;
+    dealii::GridTools::exchange_cell_data_to_ghosts<Ghosts, dealii::Triangulation<dim>>(
+      mesh.triangulation,
+      [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghosts> {
+        const auto around = cells_around(cell);
+        const auto own    = material[node_of(cell)];
+        if (std::all_of(around.begin(), around.end(), [&](LocalIndex i) { return material[i] == own; }))
+          return {};
+        Ghosts result;
+        for (const LocalIndex i : around)
+          result.emplace_back(global_number(i), std::make_pair(position[i], material[i]));
+        return result;
+      },
+      [&](const Cell &cell, const Ghosts &ghosts) { received.emplace_back(node_of(cell), ghosts); });
+    for (const auto &list : received)
+      {
+        auto &around = around_ghost[list.first];
+        for (const Ghost &ghost : list.second)
+          around.push_back(add_ghost(ghost));
+        std::sort(around.begin(), around.end());
+      }
+  }
+
+  template <int dim>
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+  CellGraph<dim>::make_partitioner(const unsigned int n_components) const
+  {
+    return make_node_partitioner(
+      first_global, n_owned_nodes, n_global, ghost_number, n_components, communicator);
+  }
+
+  template <int dim>
+  std::size_t CellGraph<dim>::memory_consumption() const
+  {
+    return position.size() * (sizeof(position[0]) + sizeof(material[0])) +
+           node_of_cell.size() * sizeof(LocalIndex) + first.size() * sizeof(unsigned int) +
+           cells.size() * sizeof(LocalIndex);
+  }
+
+  template class CellGraph<2>;
+  template class CellGraph<3>;
+} // namespace perideal

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/force/breaking_bonds.h>
+#include <perideal/quadrature/bond_volume.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// A stretch that no bond reaches, small enough for its product with a length to be finite.
+    constexpr float never = 1e30f;
+  } // namespace
+
+  template <int dim>
+  BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
+                                    const BondList                             &bonds,
+                                    const bool                                  has_sums)
+    : families(families)
+    , bonds(bonds)
+    , rest_length(bonds.n_slots(), 0.)
+    , regions(*families, bonds, has_sums)
+  {
+    this->partitioner = families->make_partitioner(dim);
+    ghosted.reinit(this->partitioner);
+    position.resize(families->n_local(), NodeRecord{});
+    forces.resize(families->n_local(), NodeRecord{});
+
+    family_volume.assign(families->n_owned(), 0.);
+    broken_volume = cut_volume = family_volume;
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (bonds.neighbour[slot] != i)
+          lose(slot, i, family_volume);
+    measure_rest_lengths();
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::measure_rest_lengths()
+  {
+    // Operation by operation as in the loops below: a body at rest has no extension, not even by rounding.
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        position[i].value[d] = families->position[i][d];
+    const NodeRecord *y = position.data();
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+        {
+          const LocalIndex *j       = bonds.neighbour.data() + k;
+          const Lanes       yi      = lanes(y[i]);
+          const Lanes       bond[4] = {
+                  lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+          Lanes square;
+          sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+          const Lanes length = square_root(square);
+          for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+            // Padding has a length too: none that it could exceed.
+            rest_length[k + lane] = j[lane] == i ? 1. : length[lane];
+        }
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::move_nodes(const NodalVector                 &displacement,
+                                      dealii::AlignedVector<NodeRecord> *records)
+  {
+    n_lost_before             = this->lost.size();
+    const NodalVector *source = &displacement;
+    if (families->n_local() > families->n_owned())
+      {
+        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
+        ghosted.update_ghost_values();
+        source = &ghosted;
+      }
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        position[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
+    if (records != nullptr)
+      for (LocalIndex i = 0; i < families->n_local(); ++i)
+        for (int d = 0; d < dim; ++d)
+          (*records)[i].value[d] = source->local_element(dim * i + d);
+    // A displacement that rounding takes from the position has moved nothing.
+    regions.update([&](const LocalIndex i) {
+      for (int d = 0; d < dim; ++d)
+        if (position[i].value[d] != families->position[i][d])
+          return true;
+      return false;
+    });
+    ghosted.zero_out_ghost_values();
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch)
+  {
+    critical_stretch.assign(bonds.n_slots(), never);
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (bonds.neighbour[slot] != i && carries_force(slot))
+          critical_stretch[slot] =
+            static_cast<float>(std::min<double>(stretch(i, bonds.neighbour[slot]), never));
+  }
+
+  template <int dim>
+  GlobalIndex BreakingBonds<dim>::cut(const BondPredicate<dim> &is_cut)
+  {
+    // Bonds that the partition cuts stand on both ranks.
+    GlobalIndex ends = 0;
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (bonds.neighbour[slot] != i &&
+            is_cut(families->position[i], families->position[bonds.neighbour[slot]]))
+          {
+            remove(slot);
+            lose(slot, i, cut_volume);
+            this->lost.push_back({slot, i, bonds.neighbour[slot]});
+            ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
+          }
+    n_cut = this->lost.size();
+    return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const
+  {
+    const LocalIndex j = bonds.neighbour[slot];
+    volume[i] += counted_volume(*families, i, j);
+    if (j < families->n_owned())
+      volume[j] += counted_volume(*families, j, i);
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::remove(const BondIndex slot)
+  {
+    clear_weights(slot);
+    if (!critical_stretch.empty())
+      critical_stretch[slot] = never;
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::break_bond(const BondIndex slot, const LocalIndex near)
+  {
+    this->lost.push_back({slot, near, bonds.neighbour[slot]});
+    remove(slot);
+    lose(slot, near, broken_volume);
+  }
+
+  template <int dim>
+  GlobalIndex BreakingBonds<dim>::n_broken_now() const
+  {
+    // Bonds that the partition cuts break on both ranks.
+    GlobalIndex ends = 0;
+    for (std::size_t k = n_lost_before; k < this->lost.size(); ++k)
+      ends += this->lost[k].far < families->n_owned() ? 2 : 1;
+    return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
+  }
+
+  template <int dim>
+  LocalIndex BreakingBonds<dim>::near_end(const BondIndex slot) const
+  {
+    return std::upper_bound(bonds.row.begin(), bonds.row.end(), slot) - 1 - bonds.row.begin();
+  }
+
+  template <int dim>
+  std::vector<BondEnds> BreakingBonds<dim>::broken_bonds() const
+  {
+    std::vector<BondEnds> result;
+    for (std::size_t k = n_cut; k < this->lost.size(); ++k)
+      result.push_back({this->lost[k].near, this->lost[k].far});
+    return result;
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::restore_broken(const std::vector<BondEnds> &broken)
+  {
+    for (const BondEnds &ends : broken)
+      {
+        const BondIndex slot = bonds.find(ends.near, ends.far);
+        if (slot == BondList::no_slot || !carries_force(slot))
+          continue;
+        this->lost.push_back({slot, ends.near, ends.far});
+        remove(slot);
+        lose(slot, ends.near, broken_volume);
+      }
+  }
+
+  template <int dim>
+  std::vector<double> BreakingBonds<dim>::share_of_family(const std::vector<double> &volume) const
+  {
+    std::vector<double> result(volume.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = family_volume[i] > 0 ? volume[i] / family_volume[i] : 0.;
+    return result;
+  }
+
+  template <int dim>
+  std::size_t BreakingBonds<dim>::breaking_memory() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return bonds.memory_consumption() + memory_consumption(rest_length) +
+           memory_consumption(critical_stretch) + regions.memory_consumption() +
+           3 * memory_consumption(family_volume) + this->lost.capacity() * sizeof(this->lost[0]) +
+           2 * position.size() * sizeof(NodeRecord) + ghosted.memory_consumption();
+  }
+
+  template class BreakingBonds<2>;
+  template class BreakingBonds<3>;
+} // namespace perideal

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/nodes/curve_order.h>
+#include <perideal/operators/force/contact_force.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  void ContactParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Contact");
+    prm.add_parameter(
+      "Enabled",
+      enabled,
+      "Whether nodes without an intact bond repel each other when they come too close, in dynamics; "
+      "automatic: where bonds can break or there are precracks",
+      Selection("automatic|true|false"));
+    prm.add_parameter("Distance",
+                      distance,
+                      "Below which nodes repel, over their mean spacing and over their distance at rest, "
+                      "0 < distance <= 1 [-]",
+                      Double());
+    prm.add_parameter(
+      "Stiffness",
+      stiffness,
+      "Force over overlap of two nodes, in bulk moduli times volume over squared horizon, > 0; a "
+      "whole family holds its node with 12 [-]",
+      Double());
+    prm.leave_subsection();
+  }
+
+  void ContactParameters::check() const
+  {
+    if (!(distance > 0 && distance <= 1))
+      throw InputError("the value is out of range")
+        .parameter("Contact/Distance")
+        .allowed("0 < distance <= 1");
+    // Four contacts of 12 are an eigenvalue of 96 where the intact body has some 15.
+    if (!(stiffness > 0 && stiffness <= 12))
+      throw InputError("the value is out of range")
+        .parameter("Contact/Stiffness")
+        .allowed("0 < stiffness <= 12; more needs smaller time steps than the body does");
+  }
+
+  template <int dim>
+  ContactForce<dim>::ContactForce(const std::shared_ptr<const Families<dim>> &families,
+                                  const ContactParameters                    &parameters,
+                                  const double                                horizon_factor,
+                                  const std::function<double(const dealii::types::material_id)> &bulk_modulus,
+                                  const std::vector<bool>                                       &on_surface)
+    : families(families)
+    , parameters(parameters)
+    , horizon_factor(horizon_factor)
+    , bulk_modulus(bulk_modulus)
+    , spacing(families->n_local())
+    , stiffness(families->n_local())
+    , exposed(on_surface)
+    , listed_at(families->position.begin(), families->position.begin() + families->n_owned())
+  {
+    AssertDimension(on_surface.size(), families->n_owned());
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      {
+        const double horizon = families->horizon[i];
+        spacing[i]           = horizon / horizon_factor;
+        stiffness[i] = parameters.stiffness * bulk_modulus(families->material[i]) * families->volume[i] /
+                       (horizon * horizon);
+      }
+  }
+
+  template <int dim>
+  typename ContactForce<dim>::Pair
+  ContactForce<dim>::pair_of_lost(const typename BondForce<dim>::LostBond &bond) const
+  {
+    const LocalIndex i = bond.near, j = bond.far;
+    // Shorter by what rounding may do, so that exactly nothing repels at rest.
+    const double rest = (1. - 1e-12) * families->position[i].distance(families->position[j]);
+    return {i,
+            j,
+            parameters.distance * std::min(0.5 * (spacing[i] + spacing[j]), rest),
+            std::min(stiffness[i], stiffness[j])};
+  }
+
+  template <int dim>
+  double ContactForce<dim>::present_length(const Pair &pair) const
+  {
+    double square = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double along = position[pair.j].value[d] - position[pair.i].value[d];
+        square += along * along;
+      }
+    return std::sqrt(square);
+  }
+
+  template <int dim>
+  void ContactForce<dim>::take_lost_bonds(const BondForce<dim> &bonds)
+  {
+    const auto &lost = bonds.lost_bonds();
+    for (; n_lost_taken < lost.size(); ++n_lost_taken)
+      {
+        const Pair pair = pair_of_lost(lost[n_lost_taken]);
+        exposed[pair.i] = true;
+        if (pair.j < families->n_owned())
+          exposed[pair.j] = true;
+        // Either node may still move a whole spacing before the lists are made anew: from half a spacing
+        // on one side of where it was then to half a spacing on the other.
+        if (present_length(pair) < pair.distance + spacing[pair.i] + spacing[pair.j])
+          once_bonded.push_back(pair);
+      }
+  }
+
+  template <int dim>
+  bool ContactForce<dim>::lists_are_old() const
+  {
+    unsigned int result = has_lists ? 0 : 1;
+    for (LocalIndex i = 0; i < families->n_owned() && result == 0; ++i)
+      {
+        double square = 0;
+        for (int d = 0; d < dim; ++d)
+          square += (position[i].value[d] - listed_at[i][d]) * (position[i].value[d] - listed_at[i][d]);
+        if (square > 0.25 * spacing[i] * spacing[i])
+          result = 1;
+      }
+    return dealii::Utilities::MPI::max(result, families->communicator) > 0;
+  }
+
+  template <int dim>
+  bool ContactForce<dim>::may_meet_strangers() const
+  {
+    // Strangers are more than the larger horizon apart at rest; half a spacing each may be added to where
+    // they are now.
+    const double slack  = 0.5 * (horizon_factor - parameters.distance - 1.);
+    unsigned int result = 0;
+    for (LocalIndex i = 0; i < families->n_owned() && result == 0; ++i)
+      {
+        double square = 0;
+        for (int d = 0; d < dim; ++d)
+          square += (position[i].value[d] - families->position[i][d]) *
+                    (position[i].value[d] - families->position[i][d]);
+        if (slack <= 0 || square > slack * slack * spacing[i] * spacing[i])
+          result = 1;
+      }
+    return dealii::Utilities::MPI::max(result, families->communicator) > 0;
+  }
+
+  template <int dim>
+  void ContactForce<dim>::list_lost_bonds(const BondForce<dim> &bonds)
+  {
+    once_bonded.clear();
+    for (const auto &bond : bonds.lost_bonds())
+      {
+        const Pair pair = pair_of_lost(bond);
+        if (present_length(pair) < pair.distance + 0.5 * (spacing[pair.i] + spacing[pair.j]))
+          once_bonded.push_back(pair);
+      }
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        listed_at[i][d] = position[i].value[d];
+    has_lists = true;
+  }
+
+  template <int dim>
+  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const
+  {
+    const GlobalIndex first   = families->global_number(0);
+    const LocalIndex  n_owned = families->n_owned();
+    LocalIndex        local_j;
+    if (j >= first && j < first + n_owned)
+      local_j = j - first;
+    else
+      {
+        const auto &ghosts = families->ghost_number;
+        const auto  at     = std::lower_bound(ghosts.begin(), ghosts.end(), j);
+        if (at == ghosts.end() || *at != j)
+          return false;
+        local_j = n_owned + (at - ghosts.begin());
+      }
+    return bonds.find(i, local_j) != BondList::no_slot;
+  }
+
+  template <int dim>
+  NodeCloud<dim> ContactForce<dim>::candidates()
+  {
+    NodeCloud<dim>                  cloud;
+    std::vector<LocalIndex>         candidate;
+    std::vector<dealii::Point<dim>> present;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        dealii::Point<dim> y;
+        for (int d = 0; d < dim; ++d)
+          y[d] = position[i].value[d];
+        if (exposed[i] && std::isfinite(y.square()))
+          {
+            candidate.push_back(i);
+            present.push_back(y);
+          }
+      }
+    // Debris is no longer in the order of the body.
+    found_node.clear();
+    for (const LocalIndex k : order_along_curve(present))
+      {
+        const LocalIndex i = candidate[k];
+        found_node.push_back(i);
+        cloud.position.push_back(present[k]);
+        cloud.volume.push_back(families->volume[i]);
+        cloud.spacing.push_back(spacing[i]);
+        cloud.horizon.push_back(search_radius() * spacing[i]);
+        cloud.material.push_back(families->material[i]);
+      }
+    cloud.communicator = families->communicator;
+    cloud.number();
+    return cloud;
+  }
+
+  template <int dim>
+  void ContactForce<dim>::search(const BondList &bonds)
+  {
+    const NodeCloud<dim> cloud = candidates();
+    const GlobalIndex    n_all =
+      dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(families->n_owned()), families->communicator);
+    left_out = n_all - cloud.n_global;
+    ++searches;
+    strangers.clear();
+    any_strangers = false;
+    if (cloud.n_global == 0)
+      return;
+
+    const Families<dim> found(cloud);
+    NodalVector         number(found.make_partitioner(1));
+    for (LocalIndex a = 0; a < found_node.size(); ++a)
+      number.local_element(a) = families->global_number(found_node[a]);
+    number.update_ghost_values();
+    const auto constants = [&](const LocalIndex a) {
+      const double h = found.horizon[a] / search_radius();
+      return std::make_pair(h,
+                            parameters.stiffness * bulk_modulus(found.material[a]) * found.volume[a] /
+                              (h * h * horizon_factor * horizon_factor));
+    };
+    for (LocalIndex a = 0; a < found_node.size(); ++a)
+      for (const LocalIndex *b = std::upper_bound(found.begin(a), found.end(a), a); b != found.end(a); ++b)
+        if (!are_family(found_node[a], static_cast<GlobalIndex>(number.local_element(*b)), bonds))
+          {
+            const auto of_a = constants(a), of_b = constants(*b);
+            strangers.push_back({a,
+                                 *b,
+                                 0.5 * parameters.distance * (of_a.first + of_b.first),
+                                 std::min(of_a.second, of_b.second)});
+          }
+    found_position.reinit(found.make_partitioner(dim));
+    any_strangers = dealii::Utilities::MPI::max(strangers.empty() ? 0u : 1u, families->communicator) > 0;
+  }
+
+  template <int dim>
+  void ContactForce<dim>::repel(const Pair      &pair,
+                                const double    *y_i,
+                                const double    *y_j,
+                                const LocalIndex node_i,
+                                const LocalIndex node_j,
+                                NodalVector     &force)
+  {
+    double along[dim], square = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        along[d] = y_j[d] - y_i[d];
+        square += along[d] * along[d];
+      }
+    if (!(square < pair.distance * pair.distance) || square == 0)
+      return;
+    const bool   both   = node_j < families->n_owned();
+    const double length = std::sqrt(square), overlap = pair.distance - length;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double push = pair.stiffness * overlap * (along[d] / length);
+        force.local_element(dim * node_i + d) -= push;
+        if (both)
+          force.local_element(dim * node_j + d) += push;
+      }
+    // A pair that the partition cuts stands on both ranks.
+    const double share = both ? 1. : 0.5;
+    own_energy += share * 0.5 * pair.stiffness * overlap * overlap;
+    own_ends += 2 * share;
+    own_overlap = std::max(own_overlap, overlap / pair.distance);
+  }
+
+  template <int dim>
+  void ContactForce<dim>::add(NodalVector &force, const BondForce<dim> &bonds)
+  {
+    position = bonds.positions();
+    take_lost_bonds(bonds);
+    if (lists_are_old())
+      {
+        list_lost_bonds(bonds);
+        if (may_meet_strangers())
+          search(bonds.bond_list());
+        else
+          {
+            strangers.clear();
+            any_strangers = false;
+          }
+      }
+
+    own_energy = own_ends = 0;
+    for (const Pair &pair : once_bonded)
+      repel(pair, position[pair.i].value, position[pair.j].value, pair.i, pair.j, force);
+    if (!any_strangers)
+      return;
+    for (LocalIndex a = 0; a < found_node.size(); ++a)
+      for (int d = 0; d < dim; ++d)
+        found_position.local_element(dim * a + d) = position[found_node[a]].value[d];
+    found_position.update_ghost_values();
+    const double *y = found_position.begin();
+    for (const Pair &pair : strangers)
+      repel(pair,
+            y + dim * pair.i,
+            y + dim * pair.j,
+            found_node[pair.i],
+            pair.j < found_node.size() ? found_node[pair.j] : families->n_local(),
+            force);
+    found_position.zero_out_ghost_values();
+  }
+
+  template <int dim>
+  double ContactForce<dim>::energy() const
+  {
+    return dealii::Utilities::MPI::sum(own_energy, families->communicator);
+  }
+
+  template <int dim>
+  std::size_t ContactForce<dim>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(spacing) + memory_consumption(stiffness) + memory_consumption(exposed) +
+           listed_at.capacity() * sizeof(listed_at[0]) + memory_consumption(found_node) +
+           (once_bonded.capacity() + strangers.capacity()) * sizeof(Pair);
+  }
+
+  template <int dim>
+  GlobalIndex ContactForce<dim>::n_contacts() const
+  {
+    return dealii::Utilities::MPI::sum(own_ends, families->communicator) / 2;
+  }
+
+  template <int dim>
+  double ContactForce<dim>::largest_overlap() const
+  {
+    return dealii::Utilities::MPI::max(own_overlap, families->communicator);
+  }
+
+  template class ContactForce<2>;
+  template class ContactForce<3>;
+} // namespace perideal

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/force/family_force.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// What FamilyForce tells of the last compute(): energies, and the forces of single bonds.
+
+namespace perideal
+{
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <typename Velocity>
+  typename FamilyForce<dim, n_sums, own_force_weights>::Motion
+  FamilyForce<dim, n_sums, own_force_weights>::motion(const BondIndex  slot,
+                                                      const LocalIndex i,
+                                                      const LocalIndex j,
+                                                      const Velocity  &velocity) const
+  {
+    double square = 0, growth = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double along = position[j].value[d] - position[i].value[d];
+        square += along * along;
+        growth += along * (velocity(j, d) - velocity(i, d));
+      }
+    const double length = std::sqrt(square), rest = rest_length[slot];
+    return {(length - rest) * rest, length > 0 ? growth / length * rest : 0.};
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  double FamilyForce<dim, n_sums, own_force_weights>::family_energy(const LocalIndex  i,
+                                                                    const FamilySums &family) const
+  {
+    double result = 0;
+    if constexpr (own_force_weights)
+      result = family.sum[0] * family.force[0] + energy[i] * family.sum[0] * family.sum[0];
+    else
+      {
+        const States s = map.states(i, family.sum);
+        for (unsigned int a = 0; a < n_sums; ++a)
+          result += 0.5 * family.sum[a] * s[a];
+      }
+    return result;
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  std::vector<BondCursor::End> FamilyForce<dim, n_sums, own_force_weights>::slots_of(const LocalIndex i) const
+  {
+    std::vector<BondCursor::End> result;
+    // As far as a bond may reach, generously.
+    const auto reach = [&](const LocalIndex from, const LocalIndex to) {
+      return (1. + 1e-8) * families->horizon[from] +
+             (families->cell_radius.empty() ? 0. : families->cell_radius[to]);
+    };
+    regions.visit_rows_with(i, [&](const LocalIndex j) {
+      // Most of the rows hold other nodes: the distance tells so faster than a search.
+      if (families->position[i].distance(families->position[j]) > std::max(reach(i, j), reach(j, i)))
+        return;
+      const BondIndex slot = bonds.find(j, i);
+      if (slot != BondList::no_slot)
+        result.push_back({slot, false});
+    });
+    for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1] && bonds.neighbour[slot] != i; ++slot)
+      result.push_back({slot, true});
+    return result;
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::visit_bond_forces(
+    const typename BondForce<dim>::VisitBond &visit) const
+  {
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const LocalIndex j = bonds.neighbour[slot]; j != i)
+          {
+            dealii::Tensor<1, dim> y;
+            for (int d = 0; d < dim; ++d)
+              y[d] = position[j].value[d] - position[i].value[d];
+            const double length = y.norm(), rest = rest_length[slot];
+            double       magnitude = stiffness(slot) * (length - rest) * rest;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              magnitude +=
+                force_weight(a, {slot, true}) * state[a][i] + force_weight(a, {slot, false}) * state[a][j];
+            visit(i, j, length > 0 ? magnitude * rest / length * y : dealii::Tensor<1, dim>());
+          }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  double FamilyForce<dim, n_sums, own_force_weights>::strain_energy() const
+  {
+    const LocalIndex n_owned = families->n_owned();
+    const auto       at_rest = [](const LocalIndex, const int) { return 0.; };
+
+    double              result = 0;
+    std::vector<States> force(own_force_weights ? n_owned : 0, States{});
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        {
+          const LocalIndex j     = bonds.neighbour[slot];
+          const double     eps   = motion(slot, i, j, at_rest).eps;
+          const double     share = j < n_owned ? 1. : 0.5;
+          result += share * 0.5 * stiffness(slot) * eps * eps;
+          if constexpr (own_force_weights)
+            {
+              force[i][0] += force_weight(0, {slot, true}) * eps;
+              if (j < n_owned)
+                force[j][0] += force_weight(0, {slot, false}) * eps;
+            }
+        }
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      {
+        FamilySums family;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          family.sum[a] = sums[a][i];
+        if constexpr (own_force_weights)
+          family.force = force[i];
+        result += family_energy(i, family);
+      }
+    return dealii::Utilities::MPI::sum(result, families->communicator);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  double FamilyForce<dim, n_sums, own_force_weights>::released_energy(const NodalVector &velocity,
+                                                                      const double       time_step) const
+  {
+    // The weights of bonds that hold have changed too: by whole evaluations.
+    if (reweigh)
+      return energy_before - strain_energy() - 0.5 * time_step * (velocity * force_change);
+    const LocalIndex n_owned = families->n_owned();
+    NodalVector      ghosted_velocity(this->partitioner);
+    std::copy(velocity.begin(), velocity.end(), ghosted_velocity.begin());
+    ghosted_velocity.update_ghost_values();
+    const auto velocity_of = [&](const LocalIndex i, const int d) {
+      return ghosted_velocity.local_element(dim * i + d);
+    };
+
+    // The strain energy is that of the bonds, eps^2 stiffness/2, and of the families; the power of the
+    // bond forces, sum v.f, is -sum stiffness eps eps' - sum A.(force sums)'.
+    double                                          energy = 0, power = 0;
+    std::vector<std::pair<LocalIndex, std::size_t>> broken_at;
+    for (std::size_t b = 0; b < broken_now.size(); ++b)
+      {
+        const BrokenBond &bond  = broken_now[b];
+        const Motion      m     = motion(bond.slot, bond.near, bond.far, velocity_of);
+        const double      share = bond.far < n_owned ? 1. : 0.5;
+        energy -= share * 0.5 * bond.stiffness * m.eps * m.eps;
+        power += share * bond.stiffness * m.eps * m.rate;
+        broken_at.emplace_back(bond.near, b);
+        if (bond.far < n_owned)
+          broken_at.emplace_back(bond.far, b);
+      }
+    std::sort(broken_at.begin(), broken_at.end());
+
+    for (auto at = broken_at.begin(); n_sums > 0 && at != broken_at.end();)
+      {
+        const LocalIndex i = at->first;
+        FamilySums       after;
+        for (unsigned int a = 0; a < n_sums; ++a)
+          after.sum[a] = sums[a][i];
+        for (const BondCursor::End &end : slots_of(i))
+          {
+            const LocalIndex near = this->near_end(end.slot);
+            const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                const double weight = force_weight(a, end);
+                after.force[a] += weight * m.eps;
+                after.force_rate[a] += weight * m.rate;
+              }
+          }
+        FamilySums before = after;
+        for (; at != broken_at.end() && at->first == i; ++at)
+          {
+            const BrokenBond &bond    = broken_now[at->second];
+            const Motion      m       = motion(bond.slot, bond.near, bond.far, velocity_of);
+            const bool        is_near = bond.near == i;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                before.sum[a] += (is_near ? bond.near_sum : bond.far_sum)[a] * m.eps;
+                before.force[a] += (is_near ? bond.near_force : bond.far_force)[a] * m.eps;
+                before.force_rate[a] += (is_near ? bond.near_force : bond.far_force)[a] * m.rate;
+              }
+          }
+        energy += family_energy(i, after) - family_energy(i, before);
+        const States state_after = map.states(i, after.sum), state_before = map.states(i, before.sum);
+        for (unsigned int a = 0; a < n_sums; ++a)
+          power -= state_after[a] * after.force_rate[a] - state_before[a] * before.force_rate[a];
+      }
+    return dealii::Utilities::MPI::sum(-energy - 0.5 * time_step * power, families->communicator);
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::visit_bond_forces(                              \
+    const typename BondForce<dim>::VisitBond &) const;                                                       \
+  template double FamilyForce<dim, n_sums, own_force_weights>::strain_energy() const;                        \
+  template double FamilyForce<dim, n_sums, own_force_weights>::released_energy(const NodalVector &,          \
+                                                                               const double) const;
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

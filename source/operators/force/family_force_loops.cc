@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/force/family_force.h>
+#include <perideal/operators/weights/family_states.h>
+
+#include <algorithm>
+
+// The hot loops of FamilyForce: two passes over all bonds, one where forces need no sums.
+
+namespace perideal
+{
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families()
+  {
+    for (unsigned int a = 0; a < n_sums; ++a)
+      std::fill(sums[a].begin(), sums[a].end(), 0.);
+    const LocalIndex *neighbour = bonds.neighbour.data();
+    const NodeRecord *y         = position.data();
+    const double      unit_sum  = unit.sum;
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        if (i % RestRegions::block_size == 0 && !regions.sums_awake(i / RestRegions::block_size))
+          {
+            i += RestRegions::block_size - 1;
+            continue;
+          }
+        const Lanes               yi  = lanes(y[i]);
+        std::array<Lanes, n_sums> own = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j       = neighbour + k;
+            const Lanes       bond[4] = {
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square, rest;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            const Lanes length = square_root(square);
+            load(rest, rest_length.data() + k);
+            if constexpr (can_break)
+              {
+                Lanes critical;
+                load(critical, critical_stretch.data() + k);
+                const Lanes margin = critical * rest - (length - rest);
+                if (__builtin_expect(any_negative(margin), false))
+                  break_bonds(i, k, -margin);
+              }
+            const Lanes extension = (length - rest) * rest * unit_sum;
+            for (unsigned int a = 0; a < n_sums; ++a)
+              {
+                Lanes near, far;
+                load(near, weights.sum_weight[a].near.data() + k);
+                load(far, weights.sum_weight[a].far.data() + k);
+                own[a] += near * extension;
+                far *= extension;
+                double *sum = sums[a].data();
+                for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+                  sum[j[lane]] += far[lane];
+              }
+          }
+        for (unsigned int a = 0; a < n_sums; ++a)
+          sums[a][i] += sum_of_all(own[a]);
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
+  {
+    const LocalIndex *neighbour    = bonds.neighbour.data();
+    const NodeRecord *y            = position.data();
+    NodeRecord       *f            = forces.data();
+    const auto       &pull_weights = weights.force_weights();
+    const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
+    const double      unit_force = unit.force, unit_stiffness = unit.stiffness;
+    std::fill(forces.begin(), forces.end(), NodeRecord{});
+
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      {
+        if (i % RestRegions::block_size == 0 && !regions.forces_awake(i / RestRegions::block_size))
+          {
+            i += RestRegions::block_size - 1;
+            continue;
+          }
+        const Lanes yi  = lanes(y[i]);
+        Lanes       own = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j       = neighbour + k;
+            const Lanes       bond[4] = {
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square, rest, magnitude;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            const Lanes length = square_root(square + tiny);
+            load(rest, rest_length.data() + k);
+            if constexpr (can_break)
+              {
+                Lanes critical;
+                load(critical, critical_stretch.data() + k);
+                const Lanes margin = critical * rest - (length - rest);
+                if (__builtin_expect(any_negative(margin), false))
+                  break_bonds(i, k, -margin);
+              }
+            load(magnitude, weights.stiffness.data() + k);
+            magnitude *= (length - rest) * rest * unit_stiffness;
+            if constexpr (n_sums > 0)
+              {
+                Lanes by_states = {};
+                for (unsigned int a = 0; a < n_sums; ++a)
+                  {
+                    Lanes near, far;
+                    load(near, pull_weights[a].near.data() + k);
+                    load(far, pull_weights[a].far.data() + k);
+                    const double *s = state[a].data();
+                    by_states += near * s[i] + far * Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
+                  }
+                magnitude += by_states * unit_force;
+              }
+            magnitude *= rest / length;
+            for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+              {
+                const Lanes pull = magnitude[lane] * bond[lane];
+                own += pull;
+                lanes(f[j[lane]]) -= pull;
+              }
+          }
+        lanes(f[i]) += own;
+      }
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector       &force,
+                                                            const NodalVector &displacement)
+  {
+    broken_now.clear();
+    this->move_nodes(displacement);
+    if (this->can_break() && reweigh)
+      compute_and_reweigh(force);
+    else if (this->can_break())
+      compute_forces<true>(force);
+    else
+      compute_forces<false>(force);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <bool can_break>
+  void FamilyForce<dim, n_sums, own_force_weights>::compute_forces(NodalVector &force)
+  {
+    if constexpr (n_sums > 0)
+      {
+        sum_over_families<can_break>();
+        turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
+        sum_forces<false>();
+      }
+    else
+      sum_forces<can_break>();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) = forces[i].value[d];
+  }
+
+#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<true>(NodalVector &);            \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<false>(NodalVector &);
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
+#undef PERIDEAL_INSTANTIATE
+} // namespace perideal

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/linear/family_operator.h>
+#include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/linear/tensor_operator.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    /// The tangent of FamilyForce: the loops are those of FamilyOperator.
+    template <int dim, unsigned int n_sums, bool own_force_weights>
+    class FamilyTangent : public FamilyOperator<dim, n_sums, own_force_weights, true>
+    {
+    public:
+      using Loops = FamilyOperator<dim, n_sums, own_force_weights, true>;
+
+      explicit FamilyTangent(const std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> &from)
+        : Loops(from)
+      {
+        deformation.scale.assign(weights->bonds.n_slots(), 1.);
+        deformation.stiffness.resize(weights->bonds.n_slots());
+        for (BondIndex slot = 0; slot < weights->bonds.n_slots(); ++slot)
+          deformation.stiffness[slot] = weights->stiffness[weights->at(slot)];
+        deformation.tension.assign(weights->bonds.n_slots(), 0.);
+      }
+
+      void linearise(const BondForce<dim> &force) override
+      {
+        std::copy_n(force.positions(), positions.size(), positions.begin());
+        const BondList &bonds = weights->bonds;
+        BondIndex       slot  = 0;
+        force.visit_bond_forces(
+          [&](const LocalIndex i, const LocalIndex j, const dealii::Tensor<1, dim> &pull) {
+            while (bonds.neighbour[slot] != j || slot < bonds.row[i])
+              ++slot; // padding
+            set_bond(slot, i, j, pull);
+            ++slot;
+          });
+        for (const auto &bond : force.lost_bonds())
+          deformation.scale[bond.slot] = deformation.tension[bond.slot] = 0.;
+      }
+
+    private:
+      using Loops::deformation;
+      using Loops::families;
+      using Loops::positions;
+      using Loops::weights;
+
+      void set_bond(const BondIndex               slot,
+                    const LocalIndex              i,
+                    const LocalIndex              j,
+                    const dealii::Tensor<1, dim> &pull)
+      {
+        dealii::Tensor<1, dim> bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = positions[j].value[d] - positions[i].value[d];
+        const double rest = (families->position[j] - families->position[i]).norm_square(),
+                     now  = bond.norm_square();
+        // The force m p is g (y_j - y_i).
+        const double tension        = (pull * bond) / now;
+        deformation.scale[slot]     = std::sqrt(rest / now);
+        deformation.tension[slot]   = tension;
+        deformation.stiffness[slot] = weights->stiffness[weights->at(slot)] - tension / rest;
+      }
+    };
+
+    /// The tangent of TensorForce, which is linear: only the lost bonds are missing.
+    template <int dim>
+    class TensorTangent : public TangentOperator<dim>
+    {
+    public:
+      explicit TensorTangent(const std::shared_ptr<const TensorWeights<dim>> &weights)
+        : weights(weights)
+        , whole(std::make_unique<TensorOperator<dim>>(weights))
+      {
+        this->counts      = weights->counts;
+        this->reports     = weights->reports;
+        this->partitioner = weights->families->make_partitioner(dim);
+      }
+
+      void linearise(const BondForce<dim> &force) override
+      {
+        const auto &lost = force.lost_bonds();
+        if (lost.size() == n_lost)
+          return;
+        auto rest = std::make_shared<TensorWeights<dim>>(*weights);
+        for (const auto &bond : lost)
+          for (auto &values : rest->component)
+            values[bond.slot] = 0.;
+        weights = rest;
+        whole   = std::make_unique<TensorOperator<dim>>(weights);
+        n_lost  = lost.size();
+      }
+
+      void vmult(NodalVector &force, const NodalVector &displacement) const override
+      {
+        whole->vmult(force, displacement);
+      }
+      std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override
+      {
+        return whole->diagonal_blocks();
+      }
+      void assemble(const typename BondOperator<dim>::AddBlock &add) const override { whole->assemble(add); }
+      void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override
+      {
+        whole->visit_bond_forces(visit);
+      }
+      std::vector<double> dilatation() const override { return whole->dilatation(); }
+      bool                is_symmetric() const override { return whole->is_symmetric(); }
+      std::size_t         memory_consumption() const override { return whole->memory_consumption(); }
+
+    private:
+      std::shared_ptr<const TensorWeights<dim>> weights;
+      std::unique_ptr<TensorOperator<dim>>      whole;
+      std::size_t                               n_lost = 0;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<TangentOperator<dim>> create_tangent(const std::shared_ptr<const BondWeights<dim>> &weights)
+  {
+    if (weights->shape.bond_tensors)
+      return std::make_unique<TensorTangent<dim>>(
+        std::static_pointer_cast<const TensorWeights<dim>>(weights));
+    return visit_family_shape(
+      weights->shape, [&](const auto n_sums, const auto own) -> std::unique_ptr<TangentOperator<dim>> {
+        return std::make_unique<FamilyTangent<dim, n_sums, own>>(
+          std::static_pointer_cast<const FamilyWeights<dim, n_sums, own>>(weights));
+      });
+  }
+
+  template class TangentOperator<2>;
+  template class TangentOperator<3>;
+  template std::unique_ptr<TangentOperator<2>> create_tangent(const std::shared_ptr<const BondWeights<2>> &);
+  template std::unique_ptr<TangentOperator<3>> create_tangent(const std::shared_ptr<const BondWeights<3>> &);
+} // namespace perideal

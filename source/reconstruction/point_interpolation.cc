@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/mesh/point_location.h>
+#include <perideal/reconstruction/linear_interpolation.h>
+#include <perideal/reconstruction/point_interpolation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <sstream>
+
+namespace perideal
+{
+  namespace
+  {
+    template <int dim>
+    void check_inside(const std::vector<typename PointInterpolation<dim>::NamedPoint> &points,
+                      const std::vector<double>                                       &distances)
+    {
+      for (std::size_t p = 0; p < distances.size(); ++p)
+        if (distances[p] > PointLocation<dim>::still_near)
+          {
+            std::ostringstream text;
+            text << points[p].position;
+            throw InputError("this is a point outside the body")
+              .parameter(points[p].parameter)
+              .given(text.str())
+              .allowed("points of the body and its boundary, up to a tenth of a cell outside");
+          }
+    }
+  } // namespace
+
+  template <int dim>
+  PointInterpolation<dim>::PointInterpolation(const Mesh<dim>               &mesh,
+                                              const CellGraph<dim>          &graph,
+                                              const std::vector<NamedPoint> &points)
+    : shares_of_points(points.size())
+  {
+    std::vector<dealii::Point<dim>> positions;
+    for (const NamedPoint &point : points)
+      positions.push_back(point.position);
+    const dealii::MappingQ1<dim> mapping;
+    std::vector<double>          distances;
+    const auto places = PointLocation<dim>(mesh.triangulation, mapping).share(positions, distances);
+    check_inside<dim>(points, distances);
+
+    LinearInterpolation<dim> interpolation;
+    for (std::size_t p = 0; p < points.size(); ++p)
+      {
+        std::vector<double> share(graph.n_local());
+        for (const auto &at : places[p])
+          {
+            const LocalIndex                own = graph.node_of(at.place.cell);
+            std::vector<LocalIndex>         stencil;
+            std::vector<dealii::Point<dim>> around;
+            for (const LocalIndex j : graph.cells_around(at.place.cell))
+              if (graph.material[j] == graph.material[own])
+                {
+                  stencil.push_back(j);
+                  around.push_back(graph.position[j]);
+                }
+            interpolation.reinit(positions[p], around, LinearInterpolation<dim>::Decay::at_rim, {});
+            const auto &phi = interpolation.weights_at(positions[p]);
+            for (std::size_t k = 0; k < stencil.size(); ++k)
+              share[stencil[k]] += phi[k] / at.n_sharing;
+          }
+        share = graph.sum_to_owners(share);
+        for (LocalIndex i = 0; i < share.size(); ++i)
+          if (share[i] != 0)
+            shares_of_points[p].emplace_back(i, share[i]);
+      }
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> PointInterpolation<dim>::evaluate(const NodalVector &field) const
+  {
+    std::vector<double> sums(dim * shares_of_points.size());
+    for (std::size_t p = 0; p < shares_of_points.size(); ++p)
+      for (const Share &share : shares_of_points[p])
+        for (int d = 0; d < dim; ++d)
+          sums[dim * p + d] += share.second * field.local_element(dim * share.first + d);
+    dealii::Utilities::MPI::sum(sums, field.get_mpi_communicator(), sums);
+
+    std::vector<dealii::Tensor<1, dim>> result(shares_of_points.size());
+    for (std::size_t p = 0; p < result.size(); ++p)
+      for (int d = 0; d < dim; ++d)
+        result[p][d] = sums[dim * p + d];
+    return result;
+  }
+
+  template class PointInterpolation<2>;
+  template class PointInterpolation<3>;
+} // namespace perideal
