@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/advice.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
 #include <perideal/materials/lattice.h>
 #include <perideal/output/summary.h>
@@ -282,10 +283,7 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template GlobalIndex              thin_cells(const SceneState<dim> &);                                     \
-  template std::vector<std::string> warnings(const SceneParameters &, const SceneState<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(thin_cells)
+  PERIDEAL_INSTANTIATE(warnings)
+
 } // namespace perideal

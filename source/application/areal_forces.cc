@@ -2,6 +2,7 @@
 #include <perideal/application/areal_forces.h>
 #include <perideal/application/report.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/mesh/point_location.h>
 #include <perideal/operators/post/partial_stress.h>
@@ -131,11 +132,7 @@ namespace perideal
     return out.str();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::unique_ptr<ArealForceDensity<dim>> create_areal_forces(                                      \
-    const SceneState<dim> &, const SceneParameters &, const SolidOf<dim> &);                                 \
-  template Json record_areal_forces(const SceneState<dim> &, const SceneParameters &, History &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(create_areal_forces)
+  PERIDEAL_INSTANTIATE(record_areal_forces)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/boundary_stress.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/surface_recovery.h>
 #include <perideal/materials/elastic_state.h>
 #include <perideal/output/boundary_curve.h>
@@ -140,6 +141,5 @@ namespace perideal
     return out.str();
   }
 
-  template Json write_boundary_stress(const SceneState<2> &, const SceneParameters &, const double);
-  template Json write_boundary_stress(const SceneState<3> &, const SceneParameters &, const double);
+  PERIDEAL_INSTANTIATE(write_boundary_stress)
 } // namespace perideal

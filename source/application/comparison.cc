@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/comparison.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/output/errors.h>
 #include <perideal/output/profiles.h>
 #include <perideal/parameters/point_text.h>
@@ -198,28 +199,12 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template NodalField<dim> solve_fem(const SceneState<dim> &,                                                \
-                                     const SolidsByMaterial<dim> &,                                          \
-                                     const double,                                                           \
-                                     const double,                                                           \
-                                     const unsigned int,                                                     \
-                                     Timings &,                                                              \
-                                     nlohmann::ordered_json &);                                              \
-  template NodalField<dim> nonlinear_fem_at_nodes(const SceneState<dim> &);                                  \
-  template NodalField<dim> solve_reference(const SceneState<dim> &,                                          \
-                                           const Mesh<dim> &,                                                \
-                                           const SolidsByMaterial<dim> &,                                    \
-                                           const int,                                                        \
-                                           const double,                                                     \
-                                           Timings &);                                                       \
-  template NodalField<dim> evaluate_exact(                                                                   \
-    const SceneState<dim> &, const ComparisonParameters &, const double);                                    \
-  template std::pair<dealii::Point<dim>, dealii::Point<dim>> ends_of(const LineText &);                      \
-  template void check_lines(const Mesh<dim> &, const Nodes<dim> &, const std::vector<LineText> &);           \
-  template nlohmann::ordered_json compare(                                                                   \
-    const SceneState<dim> &, const ComparisonParameters &, const std::string &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(solve_fem)
+  PERIDEAL_INSTANTIATE(nonlinear_fem_at_nodes)
+  PERIDEAL_INSTANTIATE(solve_reference)
+  PERIDEAL_INSTANTIATE(evaluate_exact)
+  PERIDEAL_INSTANTIATE(ends_of)
+  PERIDEAL_INSTANTIATE(check_lines)
+  PERIDEAL_INSTANTIATE(compare)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/output_fields.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/materials/elastic_state.h>
@@ -205,6 +206,5 @@ namespace perideal
       fields<dim>().get(name)(scene, output);
   }
 
-  template void add_output_fields(const SceneState<2> &, const std::vector<std::string> &, FieldOutput<2> &);
-  template void add_output_fields(const SceneState<3> &, const std::vector<std::string> &, FieldOutput<3> &);
+  PERIDEAL_INSTANTIATE(add_output_fields)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/prescribed_displacements.h>
+#include <perideal/base/instantiate.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -68,6 +69,5 @@ namespace perideal
     return result;
   }
 
-  template nlohmann::ordered_json record_displacements(const SceneState<2> &, const double, History &);
-  template nlohmann::ordered_json record_displacements(const SceneState<3> &, const double, History &);
+  PERIDEAL_INSTANTIATE(record_displacements)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
 #include <perideal/output/summary.h>
 
@@ -205,11 +206,8 @@ namespace perideal
     return out.str();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template Json        describe_discretisation(const SceneParameters &, const SceneState<dim> &);            \
-  template Json        list_skipped(const SceneParameters &, const SceneState<dim> &);                       \
-  template std::string banner(const SceneParameters &, const SceneState<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(describe_discretisation)
+  PERIDEAL_INSTANTIATE(list_skipped)
+  PERIDEAL_INSTANTIATE(banner)
+
 } // namespace perideal

@@ -10,6 +10,7 @@
 #include <perideal/application/simulation.h>
 #include <perideal/application/versions.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/post/mirror_reactions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
@@ -299,6 +300,5 @@ namespace perideal
     screen << '\n' << timing_table(seconds) << "\nresults in " << parameters.output_directory << std::endl;
   }
 
-  template class Simulation<2>;
-  template class Simulation<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

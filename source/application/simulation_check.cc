@@ -2,6 +2,7 @@
 #include <perideal/application/advice.h>
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/critical_stretch.h>
 #include <perideal/output/summary.h>
 
@@ -71,6 +72,5 @@ namespace perideal
     screen << "nothing was solved" << std::endl;
   }
 
-  template void Simulation<2>::check();
-  template void Simulation<3>::check();
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

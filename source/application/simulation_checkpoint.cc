@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/cell_keys.h>
 #include <perideal/output/summary.h>
 
@@ -173,14 +174,6 @@ namespace perideal
     resumed.reset();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template Checkpoint Simulation<dim>::start_checkpoint(const unsigned int, const double) const;             \
-  template void       Simulation<dim>::write(const Checkpoint &);                                            \
-  template void       Simulation<dim>::open_checkpoint();                                                    \
-  template void       Simulation<dim>::resume_scene();                                                       \
-  template void       Simulation<dim>::save_checkpoint(const ExplicitDynamics<dim> &, const double);         \
-  template void       Simulation<dim>::resume(ExplicitDynamics<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/stable_time_step.h>
 
 #include <cmath>
@@ -44,11 +45,6 @@ namespace perideal
     return damped_time_step(undamped, parameters.solver.damping + relative);
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void   Simulation<dim>::make_relative_damping();                                                  \
-  template void   Simulation<dim>::make_contact();                                                           \
-  template double Simulation<dim>::largest_stable_step() const;
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
 #include <perideal/fracture/stress_criteria.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
@@ -60,12 +61,6 @@ namespace perideal
              << " nodes the law leaves the body no thickness: it is used beyond its range" << std::endl;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void Simulation<dim>::warn_of_lost_thickness();                                                   \
-  template void Simulation<dim>::make_correspondence();                                                      \
-  template void Simulation<dim>::set_strengths(                                                              \
-    const std::function<bool(const LocalIndex, const LocalIndex)> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -2,6 +2,7 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/critical_stretch.h>
@@ -267,14 +268,6 @@ namespace perideal
     return true;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template double Simulation<dim>::critical_stretch(const dealii::types::material_id, const double) const;   \
-  template BondPredicate<dim> Simulation<dim>::precrack_test() const;                                        \
-  template void               Simulation<dim>::prepare_dynamics();                                           \
-  template void               Simulation<dim>::prepare_cracks();                                             \
-  template void               Simulation<dim>::make_cracks_and_limits();                                     \
-  template void               Simulation<dim>::run_dynamics();
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

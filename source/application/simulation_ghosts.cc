@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/polynomial_response.h>
 
 #include <deal.II/base/mpi.h>
@@ -23,13 +24,13 @@ namespace perideal
     const Timings::Scope part(timings, "setup: ghosts");
     scene.ghosts =
       std::make_shared<TaylorExtension<dim>>(scene.bonds,
-                                          scene.families,
-                                          *scene.nodes,
-                                          scene.faces,
-                                          scene.surface,
-                                          scene.loads,
-                                          scene.condition_boundaries,
-                                          solid_of_model()(*scene.mesh->material_ids.begin()).stiffness());
+                                             scene.families,
+                                             *scene.nodes,
+                                             scene.faces,
+                                             scene.surface,
+                                             scene.loads,
+                                             scene.condition_boundaries,
+                                             solid_of_model()(*scene.mesh->material_ids.begin()).stiffness());
     scene.bonds = scene.ghosts;
   }
 
@@ -81,11 +82,6 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void                                   Simulation<dim>::add_taylor_extension();                      \
-  template void                                   Simulation<dim>::measure_families();                       \
-  template typename Simulation<dim>::GhostBalance Simulation<dim>::balance_of_ghosts(const double) const;
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/line_to_point.h>
 #include <perideal/boundary/nodal_forces.h>
@@ -26,11 +27,11 @@ namespace perideal
         return;
       }
     scene.published_transfer = std::make_shared<PublishedTransfer<dim>>(std::move(functions),
-                                                                    scene.loads,
-                                                                    scene.condition_boundaries,
-                                                                    parameters.loads.transfer_chi,
-                                                                    parameters.loads.transfer_lambda);
-    scene.transfer         = scene.published_transfer;
+                                                                        scene.loads,
+                                                                        scene.condition_boundaries,
+                                                                        parameters.loads.transfer_chi,
+                                                                        parameters.loads.transfer_lambda);
+    scene.transfer           = scene.published_transfer;
     if (!scene.published_transfer->springs().empty())
       scene.bonds = std::make_shared<NodalSprings<dim>>(scene.bonds, scene.published_transfer->springs());
   }
@@ -151,16 +152,5 @@ namespace perideal
     displacement = 0.;
   }
 
-  template void Simulation<2>::make_transfer();
-  template void Simulation<2>::apply_forces(const double);
-  template void Simulation<2>::set_tractions(const Loads<2> &, const double, NodalVector &) const;
-  template void Simulation<2>::apply_loads(const double);
-  template void Simulation<2>::check_loads();
-  template std::vector<NullSpace<2>::Force> Simulation<2>::forces_on_body() const;
-  template void                             Simulation<3>::make_transfer();
-  template void                             Simulation<3>::apply_forces(const double);
-  template void Simulation<3>::set_tractions(const Loads<3> &, const double, NodalVector &) const;
-  template void Simulation<3>::apply_loads(const double);
-  template void Simulation<3>::check_loads();
-  template std::vector<NullSpace<3>::Force> Simulation<3>::forces_on_body() const;
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

@@ -6,6 +6,7 @@
 #include <perideal/application/prescribed_displacements.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/mpi.h>
@@ -186,12 +187,6 @@ namespace perideal
     frame_time = dynamics.time();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::vector<double> Simulation<dim>::total_damage() const;                                        \
-  template void                Simulation<dim>::record_dynamics(const ExplicitDynamics<dim> &);              \
-  template void                Simulation<dim>::record_crack_tips(const GlobalIndex, const double);          \
-  template void Simulation<dim>::write_frame(const unsigned int, const ExplicitDynamics<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -2,6 +2,7 @@
 #include <perideal/application/comparison.h>
 #include <perideal/application/gauge_records.h>
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/output/summary.h>
 
 // Simulation: finite elements of finite strain along the same load steps.
@@ -62,10 +63,5 @@ namespace perideal
       record_gauges(*scene.gauges, fem.evaluate(scene.gauges->points()), *history, summary["gauges"]);
   }
 
-  template void Simulation<2>::set_up_nonlinear_fem();
-  template void Simulation<2>::solve_nonlinear_fem(const double);
-  template void Simulation<2>::record_nonlinear_fem();
-  template void Simulation<3>::set_up_nonlinear_fem();
-  template void Simulation<3>::solve_nonlinear_fem(const double);
-  template void Simulation<3>::record_nonlinear_fem();
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/rigid_body_motions.h>
 #include <perideal/base/text.h>
 #include <perideal/output/summary.h>
@@ -27,7 +28,7 @@ namespace perideal
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
     const DirichletNodes<dim> held(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size());
-    const auto          &body_of_node = scene.parts->body_of_node;
+    const auto               &body_of_node = scene.parts->body_of_node;
     for (unsigned int body = 0; body < scene.parts->n_bodies; ++body)
       {
         dealii::Tensor<1, dim> sum_of_places;
@@ -104,12 +105,6 @@ namespace perideal
       << std::endl;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void Simulation<dim>::find_parts();                                                               \
-  template void Simulation<dim>::check_bodies_held() const;                                                  \
-  template void Simulation<dim>::warn_of_large_rotations();                                                  \
-  template void Simulation<dim>::warn_of_loose_nodes(const GlobalIndex);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

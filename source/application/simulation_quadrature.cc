@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/materials/boundary_compensation.h>
 #include <perideal/operators/linear/gauss_operator.h>
@@ -69,10 +70,6 @@ namespace perideal
     scene.bonds = std::make_shared<GaussOperator<dim>>(scene.families, points, modulus, stiffening);
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::vector<double> Simulation<dim>::compensation_factors(const GaussPoints<dim> *) const;        \
-  template void                Simulation<dim>::weigh_gauss_points();
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

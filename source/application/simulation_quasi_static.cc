@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/floating_nodes.h>
 #include <perideal/solvers/newton.h>
 
@@ -68,6 +69,5 @@ namespace perideal
     run_load_steps(newton);
   }
 
-  template void Simulation<2>::run_quasi_static();
-  template void Simulation<3>::run_quasi_static();
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

@@ -5,6 +5,7 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/fracture/fragments.h>
 #include <perideal/operators/force/correspondence_force.h>
@@ -292,12 +293,6 @@ namespace perideal
                                                       parameters.cracks.damage);
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void Simulation<dim>::make_bond_force();                                                          \
-  template void Simulation<dim>::prepare_equilibria(const std::string &);                                    \
-  template void Simulation<dim>::run_relaxation();                                                           \
-  template void Simulation<dim>::run_load_steps(EquilibriumPath<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/face_tractions.h>
 
 #include <deal.II/base/mpi.h>
@@ -158,8 +159,5 @@ namespace perideal
     return result;
   }
 
-  template Resultant<2> Simulation<2>::met_by_ghosts(const std::size_t, const double) const;
-  template Resultant<3> Simulation<3>::met_by_ghosts(const std::size_t, const double) const;
-  template Json         Simulation<2>::load_resultants(const double) const;
-  template Json         Simulation<3>::load_resultants(const double) const;
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
 } // namespace perideal

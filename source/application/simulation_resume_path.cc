@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/simulation.h>
+#include <perideal/base/instantiate.h>
 
 #include <limits>
 
@@ -74,10 +75,6 @@ namespace perideal
     resumed.reset();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void Simulation<dim>::save_checkpoint(const unsigned int, const EquilibriumPath<dim> &);          \
-  template void Simulation<dim>::resume(EquilibriumPath<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

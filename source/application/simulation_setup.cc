@@ -4,6 +4,7 @@
 #include <perideal/application/output_fields.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/parent_mesh.h>
 #include <perideal/operators/linear/surface_cure.h>
@@ -110,15 +111,15 @@ namespace perideal
         scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
         scene.held   = parameters.loads.layers > 1 ?
                          DirichletNodes<dim>(*scene.mesh,
-                                      *scene.nodes,
-                                      scene.faces,
-                                      scene.loads,
-                                      scene.condition_boundaries,
-                                      parameters.loads.layers) :
+                                           *scene.nodes,
+                                           scene.faces,
+                                           scene.loads,
+                                           scene.condition_boundaries,
+                                           parameters.loads.layers) :
                          DirichletNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
-                                      scene.loads,
-                                      scene.condition_boundaries,
-                                      scene.nodes->size());
+                                           scene.loads,
+                                           scene.condition_boundaries,
+                                           scene.nodes->size());
       }
     check_lines(*scene.mesh, *scene.nodes, parameters.comparison.lines);
     scene.families =
@@ -229,11 +230,11 @@ namespace perideal
         lower[d] = dealii::Utilities::MPI::min(box.lower_bound(d), communicator);
         upper[d] = dealii::Utilities::MPI::max(box.upper_bound(d), communicator);
       }
-    RigidBodyMotions<dim> motions(lower + 0.5 * (upper - lower), lower.distance(upper));
-    const DirichletNodes<dim>  on_faces =
+    RigidBodyMotions<dim>     motions(lower + 0.5 * (upper - lower), lower.distance(upper));
+    const DirichletNodes<dim> on_faces =
       !by_nodes() ?
-         DirichletNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
-         scene.held;
+        DirichletNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
+        scene.held;
     for (const auto &entry : on_faces.entries())
       motions.hold(!by_nodes() ? entry.point : scene.unknowns().position[entry.node], entry.component);
 
@@ -319,20 +320,6 @@ namespace perideal
     summary["solver"]["name"]   = scene.linear_solver->name();
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template const MaterialProperties &Simulation<dim>::properties_of(const dealii::types::material_id) const; \
-  template bool                      Simulation<dim>::by_nodes() const;                                      \
-  template SolidsByMaterial<dim>     Simulation<dim>::compared_solids_on(const Mesh<dim> &) const;           \
-  template void                      Simulation<dim>::make_mesh();                                           \
-  template void                      Simulation<dim>::make_nodes_and_families();                             \
-  template void                      Simulation<dim>::make_gradient();                                       \
-  template SolidOf<dim>              Simulation<dim>::solid_of_model() const;                                \
-  template void                      Simulation<dim>::weigh_bonds();                                         \
-  template void                      Simulation<dim>::find_free_motions();                                   \
-  template void                      Simulation<dim>::prepare_comparisons();                                 \
-  template PreconditionerChoice      Simulation<dim>::prepare_preconditioner(const unsigned int);            \
-  template void                      Simulation<dim>::set_up_solver();
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Simulation)
+
 } // namespace perideal

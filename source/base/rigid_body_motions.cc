@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/base/rigid_body_motions.h>
 
 #include <deal.II/base/mpi.h>
@@ -100,6 +101,5 @@ namespace perideal
     return text;
   }
 
-  template class RigidBodyMotions<2>;
-  template class RigidBodyMotions<3>;
+  PERIDEAL_INSTANTIATE_CLASS(RigidBodyMotions)
 } // namespace perideal

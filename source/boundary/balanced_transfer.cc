@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/face_tractions.h>
 
@@ -97,6 +98,5 @@ namespace perideal
             }
   }
 
-  template class BalancedTransfer<2>;
-  template class BalancedTransfer<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BalancedTransfer)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/boundary_faces.h>
 
 #include <deal.II/base/mpi.h>
@@ -150,24 +151,11 @@ namespace perideal
       }
   }
 
-  template struct BoundaryFace<2>;
-  template struct BoundaryFace<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BoundaryFace)
+  PERIDEAL_INSTANTIATE(resolve_boundaries)
+  PERIDEAL_INSTANTIATE(check_finite)
   template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const Nodes<2> &);
   template std::vector<BoundaryFace<3>> find_boundary_faces(const Mesh<3> &, const Nodes<3> &);
   template std::vector<BoundaryFace<2>> find_boundary_faces(const Mesh<2> &, const CellGraph<2> &);
   template std::vector<BoundaryFace<3>> find_boundary_faces(const Mesh<3> &, const CellGraph<3> &);
-  template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<2> &,
-                                                                                   const Loads<2> &);
-  template std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<3> &,
-                                                                                   const Loads<3> &);
-  template void check_finite(const std::vector<BoundaryFace<2>> &,
-                             const Loads<2> &,
-                             const std::vector<std::vector<dealii::types::boundary_id>> &,
-                             const double,
-                             MPI_Comm);
-  template void check_finite(const std::vector<BoundaryFace<3>> &,
-                             const Loads<3> &,
-                             const std::vector<std::vector<dealii::types::boundary_id>> &,
-                             const double,
-                             MPI_Comm);
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/dirichlet_nodes.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,9 +12,9 @@ namespace perideal
 {
   template <int dim>
   DirichletNodes<dim>::DirichletNodes(const std::vector<BoundaryFace<dim>>                       &faces,
-                            const Loads<dim>                                           &loads,
-                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                            const LocalIndex                                            n_nodes)
+                                      const Loads<dim>                                           &loads,
+                                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                                      const LocalIndex                                            n_nodes)
     : n_conditions(loads.conditions.size())
   {
     for (const BoundaryFace<dim> &face : faces)
@@ -46,11 +47,11 @@ namespace perideal
 
   template <int dim>
   DirichletNodes<dim>::DirichletNodes(const Mesh<dim>                                            &mesh,
-                            const Nodes<dim>                                           &nodes,
-                            const std::vector<BoundaryFace<dim>>                       &faces,
-                            const Loads<dim>                                           &loads,
-                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                            const unsigned int                                          n_layers)
+                                      const Nodes<dim>                                           &nodes,
+                                      const std::vector<BoundaryFace<dim>>                       &faces,
+                                      const Loads<dim>                                           &loads,
+                                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                                      const unsigned int                                          n_layers)
     : n_conditions(loads.conditions.size())
     , is_collar(n_layers > 1)
   {
@@ -73,9 +74,9 @@ namespace perideal
 
   template <int dim>
   void DirichletNodes<dim>::add(const Loads<dim>         &loads,
-                           const unsigned int        condition,
-                           const LocalIndex          node,
-                           const dealii::Point<dim> &point)
+                                const unsigned int        condition,
+                                const LocalIndex          node,
+                                const dealii::Point<dim> &point)
   {
     for (unsigned int d = 0; d < dim; ++d)
       if (loads.conditions[condition].holds(d))
@@ -97,7 +98,8 @@ namespace perideal
   }
 
   template <int dim>
-  void DirichletNodes<dim>::check_finite(const Loads<dim> &loads, const double time, MPI_Comm communicator) const
+  void
+  DirichletNodes<dim>::check_finite(const Loads<dim> &loads, const double time, MPI_Comm communicator) const
   {
     std::vector<unsigned int> bad(dim * n_conditions, 0);
     for (const Entry &entry : list)
@@ -123,8 +125,8 @@ namespace perideal
 
   template <int dim>
   void DirichletNodes<dim>::set_boundary_values(const Loads<dim> &loads,
-                                           const double      time,
-                                           NodalVector      &displacement) const
+                                                const double      time,
+                                                NodalVector      &displacement) const
   {
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i])
@@ -137,10 +139,10 @@ namespace perideal
 
   template <int dim>
   void DirichletNodes<dim>::set_velocities(const Loads<dim>  &loads,
-                                      const double       time,
-                                      const double       time_step,
-                                      const NodalVector &displacement,
-                                      NodalVector       &velocity) const
+                                           const double       time,
+                                           const double       time_step,
+                                           const NodalVector &displacement,
+                                           NodalVector       &velocity) const
   {
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i])
@@ -160,7 +162,7 @@ namespace perideal
 
   template <int dim>
   void DirichletNodes<dim>::set_nodal_values(const std::vector<dealii::Tensor<1, dim>> &values,
-                                        NodalVector                               &displacement) const
+                                             NodalVector                               &displacement) const
   {
     for (const Entry &entry : list)
       displacement.local_element(dim * entry.node + entry.component) = values[entry.node][entry.component];
@@ -168,7 +170,7 @@ namespace perideal
 
   template <int dim>
   std::vector<dealii::Tensor<1, dim>> DirichletNodes<dim>::sum_by_condition(const NodalVector &force,
-                                                                       MPI_Comm           communicator) const
+                                                                            MPI_Comm communicator) const
   {
     std::vector<dealii::Tensor<1, dim>> result(n_conditions);
     for (const Entry &entry : list)
@@ -180,8 +182,9 @@ namespace perideal
   }
 
   template <int dim>
-  double
-  DirichletNodes<dim>::work(const NodalVector &force, const NodalVector &displacement, MPI_Comm communicator) const
+  double DirichletNodes<dim>::work(const NodalVector &force,
+                                   const NodalVector &displacement,
+                                   MPI_Comm           communicator) const
   {
     double sum = 0;
     for (std::size_t i = 0; i < held.size(); ++i)
@@ -190,6 +193,5 @@ namespace perideal
     return dealii::Utilities::MPI::sum(sum, communicator);
   }
 
-  template class DirichletNodes<2>;
-  template class DirichletNodes<3>;
+  PERIDEAL_INSTANTIATE_CLASS(DirichletNodes)
 } // namespace perideal

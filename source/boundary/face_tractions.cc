@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/face_tractions.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -89,15 +90,10 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                                      \
-  template struct Resultant<dim>;                                                                                      \
-  template std::vector<FacePoint<dim>> quadrature_points(const BoundaryFace<dim> &);                                   \
-  template dealii::Tensor<1, 3>        in_space(const dealii::Tensor<1, dim> &);                                       \
-  template Resultant<dim>              integrate_traction(                                                             \
-                 const BoundaryCondition<dim> &, const BoundaryFace<dim> &, const double, const dealii::Point<dim> &); \
-  template Resultant<dim> integrate_traction(                                                                          \
-    const BoundaryCondition<dim> &, const SurfaceFace<dim> &, const double, const dealii::Point<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(Resultant)
+  PERIDEAL_INSTANTIATE(quadrature_points)
+  PERIDEAL_INSTANTIATE(integrate_traction)
+  template dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, 2> &);
+  template dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, 3> &);
+
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/face_values.h>
 
 #include <deal.II/base/mpi.h>
@@ -102,6 +103,5 @@ namespace perideal
     return dealii::Utilities::MPI::sum(result, communicator);
   }
 
-  template class FaceValues<2>;
-  template class FaceValues<3>;
+  PERIDEAL_INSTANTIATE_CLASS(FaceValues)
 } // namespace perideal

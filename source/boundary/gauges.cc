@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/gauges.h>
 
 namespace perideal
@@ -62,6 +63,5 @@ namespace perideal
     return result;
   }
 
-  template class Gauges<2>;
-  template class Gauges<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Gauges)
 } // namespace perideal

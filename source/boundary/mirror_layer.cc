@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/mirror_layer.h>
 
 #include <deal.II/base/mpi.h>
@@ -235,6 +236,5 @@ namespace perideal
         numbers.local_element(dim * (n_real_nodes + k) + d) = 1 + images[k].condition[d];
   }
 
-  template class MirrorLayer<2>;
-  template class MirrorLayer<3>;
+  PERIDEAL_INSTANTIATE_CLASS(MirrorLayer)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/face_tractions.h>
 #include <perideal/boundary/nodal_forces.h>
 
@@ -99,21 +100,6 @@ namespace perideal
         force.local_element(dim * i + d) += sums[i][d];
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void compute_nodal_forces(const Nodes<dim> &,                                                     \
-                                     const std::vector<BoundaryFace<dim>> &,                                 \
-                                     const Loads<dim> &,                                                     \
-                                     const std::vector<std::vector<dealii::types::boundary_id>> &,           \
-                                     const double,                                                           \
-                                     NodalVector &);                                                         \
-  template void compute_nodal_forces(const Nodes<dim> &,                                                     \
-                                     const std::vector<BoundaryFace<dim>> &,                                 \
-                                     const FaceGradient<dim> &,                                              \
-                                     const Loads<dim> &,                                                     \
-                                     const std::vector<std::vector<dealii::types::boundary_id>> &,           \
-                                     const double,                                                           \
-                                     NodalVector &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(compute_nodal_forces)
+
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/nodal_strain.h>
 
 namespace perideal
@@ -33,13 +34,5 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::vector<dealii::SymmetricTensor<2, dim>> compute_nodal_strain(                                \
-    const FaceGradient<dim> &,                                                                               \
-    const FaceValues<dim> &,                                                                                 \
-    const Nodes<dim> &,                                                                                      \
-    const std::vector<dealii::Tensor<1, dim>> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(compute_nodal_strain)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/point_forces.h>
 
 namespace perideal
@@ -34,6 +35,5 @@ namespace perideal
       }
   }
 
-  template class PointForces<2>;
-  template class PointForces<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PointForces)
 } // namespace perideal

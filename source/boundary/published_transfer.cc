@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/published_transfer.h>
 
 #include <algorithm>
@@ -72,11 +73,11 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  PublishedTransfer<dim>::add_tractions(const Loads<dim>                                           &loads,
-                                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                      const double                                                time,
-                                      NodalVector                                                &force) const
+  void PublishedTransfer<dim>::add_tractions(
+    const Loads<dim>                                           &loads,
+    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+    const double                                                time,
+    NodalVector                                                &force) const
   {
     const auto &faces = functions.faces();
     for (std::size_t c = 0; c < loads.conditions.size(); ++c)
@@ -96,7 +97,8 @@ namespace perideal
   }
 
   template <int dim>
-  void PublishedTransfer<dim>::add_places(const Loads<dim> &loads, const double time, NodalVector &force) const
+  void
+  PublishedTransfer<dim>::add_places(const Loads<dim> &loads, const double time, NodalVector &force) const
   {
     if (lambda == 0)
       return;
@@ -128,6 +130,5 @@ namespace perideal
       }
   }
 
-  template class PublishedTransfer<2>;
-  template class PublishedTransfer<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PublishedTransfer)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/surface_nodes.h>
 
 #include <algorithm>
@@ -37,6 +38,5 @@ namespace perideal
     all.number();
   }
 
-  template class SurfaceNodes<2>;
-  template class SurfaceNodes<3>;
+  PERIDEAL_INSTANTIATE_CLASS(SurfaceNodes)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/surface_planes.h>
 
 #include <deal.II/base/mpi.h>
@@ -121,16 +122,8 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                                          \
-  template std::vector<SurfaceFace<dim>> gather_faces(const std::vector<BoundaryFace<dim>> &, MPI_Comm);                   \
-  template void                          visit_nearby_faces(                                                               \
-                             const NodeCloud<dim> &,                                                                       \
-                             const std::vector<SurfaceFace<dim>> &,                                                        \
-                             const std::function<void(const LocalIndex, const std::vector<const SurfaceFace<dim> *> &)> &, \
-                             const double);                                                                                \
-  template std::vector<std::vector<SurfacePlane<dim>>> find_surface_planes(                                                \
-    const NodeCloud<dim> &, const std::vector<SurfaceFace<dim>> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(gather_faces)
+  PERIDEAL_INSTANTIATE(visit_nearby_faces)
+  PERIDEAL_INSTANTIATE(find_surface_planes)
+
 } // namespace perideal

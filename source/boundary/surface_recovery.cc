@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/surface_recovery.h>
 
 #include <algorithm>
@@ -114,6 +115,5 @@ namespace perideal
     return result;
   }
 
-  template class SurfaceRecovery<2>;
-  template class SurfaceRecovery<3>;
+  PERIDEAL_INSTANTIATE_CLASS(SurfaceRecovery)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/taylor_fit.h>
 
 #include <Eigen/Dense>
@@ -283,10 +284,7 @@ namespace perideal
     return result;
   }
 
-  template struct SurfaceValue<2>;
-  template struct SurfaceValue<3>;
-  template struct TaylorBasis<2>;
-  template struct TaylorBasis<3>;
-  template class TaylorFit<2>;
-  template class TaylorFit<3>;
+  PERIDEAL_INSTANTIATE_CLASS(SurfaceValue)
+  PERIDEAL_INSTANTIATE_CLASS(TaylorBasis)
+  PERIDEAL_INSTANTIATE_CLASS(TaylorFit)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/transfer_functions.h>
 
 #include <deal.II/base/mpi.h>
@@ -43,6 +44,5 @@ namespace perideal
       sum_over_both += sums_over_nodes[k] * surface[k].area;
   }
 
-  template class TransferFunctions<2>;
-  template class TransferFunctions<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TransferFunctions)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/support_points.h>
 
@@ -112,6 +113,5 @@ namespace perideal
     implementation->multigrid.vmult(destination, source);
   }
 
-  template class AlgebraicMultigrid<2>;
-  template class AlgebraicMultigrid<3>;
+  PERIDEAL_INSTANTIATE_CLASS(AlgebraicMultigrid)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/cell_integrals.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -149,6 +150,5 @@ namespace perideal
       }
   }
 
-  template class CellIntegrals<2>;
-  template class CellIntegrals<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CellIntegrals)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/support_points.h>
 
@@ -189,20 +190,7 @@ namespace perideal
     return dealii::Utilities::MPI::sum(result, unknowns.get_communicator());
   }
 
-#define INSTANTIATE(dim)                                                                                     \
-  template void         add_prescribed_displacements(const dealii::Mapping<dim> &,                           \
-                                                     const dealii::DoFHandler<dim> &,                        \
-                                                     const Mesh<dim> &,                                      \
-                                                     const Loads<dim> &,                                     \
-                                                     const double,                                           \
-                                                     dealii::AffineConstraints<double> &);                   \
-  template unsigned int pin_free_motions(                                                                    \
-    const dealii::Mapping<dim> &, const dealii::DoFHandler<dim> &, dealii::AffineConstraints<double> &);     \
-  template dealii::Tensor<1, dim> sum_of_held(const dealii::DoFHandler<dim> &,                               \
-                                              const dealii::AffineConstraints<double> &,                     \
-                                              const NodalVector &,                                           \
-                                              const dealii::types::boundary_id)
-  INSTANTIATE(2);
-  INSTANTIATE(3);
-#undef INSTANTIATE
+  PERIDEAL_INSTANTIATE(add_prescribed_displacements)
+  PERIDEAL_INSTANTIATE(pin_free_motions)
+  PERIDEAL_INSTANTIATE(sum_of_held)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/elastic_fem.h>
@@ -184,6 +185,5 @@ namespace perideal
     return unknowns.get_triangulation().n_global_active_cells();
   }
 
-  template class ElasticFem<2>;
-  template class ElasticFem<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ElasticFem)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fem/point_evaluation.h>
@@ -60,13 +61,6 @@ namespace perideal
     return sum_of_held(unknowns, held, support, boundary);
   }
 
-#define INSTANTIATE(dim)                                                                                     \
-  template std::vector<dealii::Tensor<1, dim>> ElasticFem<dim>::evaluate(                                    \
-    const std::vector<dealii::Point<dim>> &) const;                                                          \
-  template std::vector<dealii::Tensor<1, dim>> ElasticFem<dim>::evaluate_in_cells(                           \
-    const std::vector<dealii::Point<dim>> &) const;                                                          \
-  template dealii::Tensor<1, dim> ElasticFem<dim>::reaction(const dealii::types::boundary_id) const
-  INSTANTIATE(2);
-  INSTANTIATE(3);
-#undef INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(ElasticFem)
+
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/external_forces.h>
 #include <perideal/mesh/point_location.h>
 
@@ -70,6 +71,5 @@ namespace perideal
                      entry->second.force[element.system_to_component_index(k).first];
   }
 
-  template class ExternalForces<2>;
-  template class ExternalForces<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ExternalForces)
 } // namespace perideal

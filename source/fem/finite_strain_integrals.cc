@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/finite_strain_integrals.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -88,6 +89,5 @@ namespace perideal
       }
   }
 
-  template class FiniteStrainIntegrals<2>;
-  template class FiniteStrainIntegrals<3>;
+  PERIDEAL_INSTANTIATE_CLASS(FiniteStrainIntegrals)
 } // namespace perideal

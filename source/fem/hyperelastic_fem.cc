@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/hyperelastic_fem.h>
 #include <perideal/fem/point_evaluation.h>
@@ -154,21 +155,6 @@ namespace perideal
     return dealii::Utilities::MPI::sum(result, unknowns.get_communicator());
   }
 
-#define INSTANTIATE(dim)                                                                                     \
-  template HyperelasticFem<dim>::HyperelasticFem(                                                            \
-    const Mesh<dim> &, const Loads<dim> &, const LawsByMaterial<dim> &, const Controls &);                   \
-  template void                                HyperelasticFem<dim>::prescribe(const double);                \
-  template HyperelasticFem<dim>::Constraints   HyperelasticFem<dim>::increments(const bool) const;           \
-  template void                                HyperelasticFem<dim>::for_each_cell(const Visit &) const;     \
-  template void                                HyperelasticFem<dim>::make_external_force(const double);      \
-  template void                                HyperelasticFem<dim>::compute_balance();                      \
-  template std::vector<dealii::Tensor<1, dim>> HyperelasticFem<dim>::evaluate(                               \
-    const std::vector<dealii::Point<dim>> &) const;                                                          \
-  template std::vector<dealii::Tensor<1, dim>> HyperelasticFem<dim>::evaluate_in_cells(                      \
-    const std::vector<dealii::Point<dim>> &) const;                                                          \
-  template dealii::Tensor<1, dim> HyperelasticFem<dim>::reaction(const dealii::types::boundary_id) const;    \
-  template double                 HyperelasticFem<dim>::strain_energy() const
-  INSTANTIATE(2);
-  INSTANTIATE(3);
-#undef INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(HyperelasticFem)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/hyperelastic_fem.h>
@@ -202,8 +203,5 @@ namespace perideal
       }
   }
 
-#define INSTANTIATE(dim) template HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double)
-  INSTANTIATE(2);
-  INSTANTIATE(3);
-#undef INSTANTIATE
+  PERIDEAL_INSTANTIATE_CLASS(HyperelasticFem)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/point_evaluation.h>
 
 #include <deal.II/base/mpi.h>
@@ -153,14 +154,6 @@ namespace perideal
     return result;
   }
 
-  template class PointEvaluation<2>;
-  template class PointEvaluation<3>;
-  template std::vector<dealii::Tensor<1, 2>> evaluate_in_cells(const dealii::Mapping<2> &,
-                                                               const dealii::DoFHandler<2> &,
-                                                               const NodalVector &,
-                                                               const std::vector<dealii::Point<2>> &);
-  template std::vector<dealii::Tensor<1, 3>> evaluate_in_cells(const dealii::Mapping<3> &,
-                                                               const dealii::DoFHandler<3> &,
-                                                               const NodalVector &,
-                                                               const std::vector<dealii::Point<3>> &);
+  PERIDEAL_INSTANTIATE_CLASS(PointEvaluation)
+  PERIDEAL_INSTANTIATE(evaluate_in_cells)
 } // namespace perideal

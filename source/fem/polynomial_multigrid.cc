@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/polynomial_multigrid.h>
 
@@ -71,6 +72,5 @@ namespace perideal
     all.smoother.step(destination, source);
   }
 
-  template class PolynomialMultigrid<2>;
-  template class PolynomialMultigrid<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PolynomialMultigrid)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fem/support_points.h>
 
 #include <deal.II/base/mpi.h>
@@ -79,10 +80,6 @@ namespace perideal
     return RigidBodyMotions<dim>(lower + 0.5 * (upper - lower), 0.5 * lower.distance(upper));
   }
 
-  template std::vector<dealii::Point<2>> owned_support_points(const dealii::Mapping<2> &,
-                                                              const dealii::DoFHandler<2> &);
-  template std::vector<dealii::Point<3>> owned_support_points(const dealii::Mapping<3> &,
-                                                              const dealii::DoFHandler<3> &);
-  template RigidBodyMotions<2> motions_about_middle(const std::vector<dealii::Point<2>> &, MPI_Comm);
-  template RigidBodyMotions<3> motions_about_middle(const std::vector<dealii::Point<3>> &, MPI_Comm);
+  PERIDEAL_INSTANTIATE(owned_support_points)
+  PERIDEAL_INSTANTIATE(motions_about_middle)
 } // namespace perideal

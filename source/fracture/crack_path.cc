@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/crack_path.h>
 
 #include <algorithm>
@@ -97,6 +98,5 @@ namespace perideal
     return time > since->time ? (reach - distance(*since)) / (time - since->time) : 0.;
   }
 
-  template class CrackPath<2>;
-  template class CrackPath<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CrackPath)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/crack_branching.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/output/files.h>
@@ -314,6 +315,5 @@ namespace perideal
       }
   }
 
-  template class CrackTracker<2>;
-  template class CrackTracker<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CrackTracker)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/floating_nodes.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,12 +81,5 @@ namespace perideal
     return floats;
   }
 
-  template std::vector<bool> find_floating_nodes(const Families<2> &,
-                                                 const BondList &,
-                                                 const std::function<bool(const BondIndex)> &,
-                                                 const std::vector<std::uint8_t> &);
-  template std::vector<bool> find_floating_nodes(const Families<3> &,
-                                                 const BondList &,
-                                                 const std::function<bool(const BondIndex)> &,
-                                                 const std::vector<std::uint8_t> &);
+  PERIDEAL_INSTANTIATE(find_floating_nodes)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/fragments.h>
 
 #include <deal.II/base/mpi.h>
@@ -74,14 +75,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<double> find_fragments(const Families<2> &,
-                                              const BondList &,
-                                              const std::vector<double> &,
-                                              const std::vector<double> &,
-                                              const double);
-  template std::vector<double> find_fragments(const Families<3> &,
-                                              const BondList &,
-                                              const std::vector<double> &,
-                                              const std::vector<double> &,
-                                              const double);
+  PERIDEAL_INSTANTIATE(find_fragments)
 } // namespace perideal

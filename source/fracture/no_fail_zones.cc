@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/fracture/no_fail_zones.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
@@ -155,6 +156,5 @@ namespace perideal
     return n.back();
   }
 
-  template class NoFailZones<2>;
-  template class NoFailZones<3>;
+  PERIDEAL_INSTANTIATE_CLASS(NoFailZones)
 } // namespace perideal

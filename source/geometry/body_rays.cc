@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/geometry/body_rays.h>
 
 #include <algorithm>
@@ -96,6 +97,5 @@ namespace perideal
     return result;
   }
 
-  template class BodyRays<2>;
-  template class BodyRays<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BodyRays)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/geometry/cell_in_ball.h>
 
 #include <algorithm>
@@ -289,13 +290,9 @@ namespace perideal
     return sums_in_ball<dim, true>(cell, centre, radius);
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template PlaceOfCell place_of(const CellVertices<dim> &, const dealii::Point<dim> &, const double);        \
-  template double      cell_volume<dim>(const CellVertices<dim> &);                                          \
-  template double      volume_in_ball(const CellVertices<dim> &, const dealii::Point<dim> &, const double);  \
-  template CellMoments<dim> moments_in_ball(                                                                 \
-    const CellVertices<dim> &, const dealii::Point<dim> &, const double);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(place_of)
+  PERIDEAL_INSTANTIATE(cell_volume)
+  PERIDEAL_INSTANTIATE(volume_in_ball)
+  PERIDEAL_INSTANTIATE(moments_in_ball)
+
 } // namespace perideal

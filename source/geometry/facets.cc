@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/geometry/facets.h>
 
 #include <algorithm>
@@ -145,8 +146,6 @@ namespace perideal
     });
   }
 
-  template class Facet<2>;
-  template class Facet<3>;
-  template class Facets<2>;
-  template class Facets<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Facet)
+  PERIDEAL_INSTANTIATE_CLASS(Facets)
 } // namespace perideal

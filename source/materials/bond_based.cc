@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/bond_based.h>
 
 #include <deal.II/base/numbers.h>
@@ -60,6 +61,5 @@ namespace perideal
     };
   }
 
-  template class BondBased<2>;
-  template class BondBased<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BondBased)
 } // namespace perideal

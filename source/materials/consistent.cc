@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/consistent.h>
 
 #include <cmath>
@@ -27,6 +28,5 @@ namespace perideal
     return softest > 0 ? softest : shear;
   }
 
-  template class Consistent<2>;
-  template class Consistent<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Consistent)
 } // namespace perideal

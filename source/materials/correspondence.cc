@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/consistent.h>
 #include <perideal/materials/correspondence.h>
 
@@ -79,6 +80,5 @@ namespace perideal
       }
   }
 
-  template class Correspondence<2>;
-  template class Correspondence<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Correspondence)
 } // namespace perideal

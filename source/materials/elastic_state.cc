@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/elastic_state.h>
 
 #include <algorithm>
@@ -34,6 +35,5 @@ namespace perideal
     return state;
   }
 
-  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 2> &, const ElasticSolid<2> &);
-  template ElasticState elastic_state(const dealii::SymmetricTensor<2, 3> &, const ElasticSolid<3> &);
+  PERIDEAL_INSTANTIATE(elastic_state)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/materials/extended_ordinary.h>
 #include <perideal/materials/ordinary.h>
@@ -174,6 +175,5 @@ namespace perideal
     coefficients.map      = {{family.node_volume * kappa - coupling * s / dim, coupling, 0.}};
   }
 
-  template class ExtendedOrdinary<2>;
-  template class ExtendedOrdinary<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ExtendedOrdinary)
 } // namespace perideal

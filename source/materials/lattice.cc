@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/lattice.h>
 
 #include <deal.II/base/numbers.h>
@@ -141,12 +142,9 @@ namespace perideal
     return axial / (3. * oblique) - 1.;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template FamilyView<dim> lattice_family(const double);                                                     \
-  template double smallest_wave_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);      \
-  template double smallest_bond_stiffness(LinearModel<dim> &, const ElasticSolid<dim> &, const double);      \
-  template double lattice_anisotropy<dim>(const double);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(lattice_family)
+  PERIDEAL_INSTANTIATE(smallest_wave_stiffness)
+  PERIDEAL_INSTANTIATE(smallest_bond_stiffness)
+  PERIDEAL_INSTANTIATE(lattice_anisotropy)
+
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/linear_model.h>
 #include <perideal/quadrature/bond_volume.h>
 
@@ -68,6 +69,5 @@ namespace perideal
     report = {};
   }
 
-  template struct FamilyView<2>;
-  template struct FamilyView<3>;
+  PERIDEAL_INSTANTIATE_CLASS(FamilyView)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/materials/extended_ordinary.h>
@@ -259,12 +260,7 @@ namespace perideal
     return models<dim>().get(parameters.model)(parameters, thickness, stiffening);
   }
 
-  template Consistent<2>     create_consistent(const ModelParameters &, const double);
-  template Consistent<3>     create_consistent(const ModelParameters &, const double);
-  template Correspondence<2> create_correspondence(const ModelParameters &);
-  template Correspondence<3> create_correspondence(const ModelParameters &);
-  template std::unique_ptr<LinearModel<2>>
-  create_model(const ModelParameters &, const double, const std::vector<double> &);
-  template std::unique_ptr<LinearModel<3>>
-  create_model(const ModelParameters &, const double, const std::vector<double> &);
+  PERIDEAL_INSTANTIATE(create_consistent)
+  PERIDEAL_INSTANTIATE(create_correspondence)
+  PERIDEAL_INSTANTIATE(create_model)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/ordinary.h>
 
 #include <cmath>
@@ -42,10 +43,6 @@ namespace perideal
     coefficients.map = {{family.node_volume * (kappa - mu * (dim + 2) / dim), 0., 0.}};
   }
 
-  template void
-  spherical_weights(const FamilyView<2> &, const InfluenceFunction &, const double, std::vector<double> &);
-  template void
-  spherical_weights(const FamilyView<3> &, const InfluenceFunction &, const double, std::vector<double> &);
-  template class Ordinary<2>;
-  template class Ordinary<3>;
+  PERIDEAL_INSTANTIATE(spherical_weights)
+  PERIDEAL_INSTANTIATE_CLASS(Ordinary)
 } // namespace perideal

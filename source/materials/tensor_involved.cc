@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/tensor_involved.h>
 
 #include <deal.II/base/numbers.h>
@@ -154,6 +155,5 @@ namespace perideal
     };
   }
 
-  template class TensorInvolved<2>;
-  template class TensorInvolved<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TensorInvolved)
 } // namespace perideal

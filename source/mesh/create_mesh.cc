@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/generators.h>
@@ -121,8 +122,6 @@ namespace perideal
     copy.refine_global(std::max(further_refinements, 0));
   }
 
-  template std::unique_ptr<Mesh<2>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
-  template std::unique_ptr<Mesh<3>> create_mesh(const MeshParameters &, MPI_Comm, const std::string &);
-  template void                     copy_refined(const Mesh<2> &, const int, dealii::Triangulation<2> &);
-  template void                     copy_refined(const Mesh<3> &, const int, dealii::Triangulation<3> &);
+  PERIDEAL_INSTANTIATE(create_mesh)
+  PERIDEAL_INSTANTIATE(copy_refined)
 } // namespace perideal

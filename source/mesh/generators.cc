@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/mesh/generators.h>
 
@@ -115,8 +116,6 @@ namespace perideal
       mesh.boundary_names.insert({{"back", 4}, {"front", 5}});
   }
 
-  template void generate_mesh(const MeshParameters &, CoarseMesh<2> &);
-  template void generate_mesh(const MeshParameters &, CoarseMesh<3> &);
-  template void generate_box(const MeshParameters &, CoarseMesh<2> &);
-  template void generate_box(const MeshParameters &, CoarseMesh<3> &);
+  PERIDEAL_INSTANTIATE(generate_mesh)
+  PERIDEAL_INSTANTIATE(generate_box)
 } // namespace perideal

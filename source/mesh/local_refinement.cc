@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/local_refinement.h>
 
 #include <deal.II/base/mpi.h>
@@ -92,6 +93,5 @@ namespace perideal
       }
   }
 
-  template void refine_locally(const LocalRefinement &, dealii::Triangulation<2> &);
-  template void refine_locally(const LocalRefinement &, dealii::Triangulation<3> &);
+  PERIDEAL_INSTANTIATE(refine_locally)
 } // namespace perideal

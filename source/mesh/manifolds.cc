@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/manifolds.h>
 
 #include <deal.II/grid/manifold_lib.h>
@@ -59,8 +60,6 @@ namespace perideal
       }
   }
 
-  template void attach_manifolds(const Cylinders &, dealii::Triangulation<2> &);
-  template void attach_manifolds(const Cylinders &, dealii::Triangulation<3> &);
-  template void check_cylinders(const CoarseMesh<2> &);
-  template void check_cylinders(const CoarseMesh<3> &);
+  PERIDEAL_INSTANTIATE(attach_manifolds)
+  PERIDEAL_INSTANTIATE(check_cylinders)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/mesh/mesh.h>
 
@@ -102,6 +103,5 @@ namespace perideal
     return name_of(material_names, id);
   }
 
-  template class Mesh<2>;
-  template class Mesh<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Mesh)
 } // namespace perideal

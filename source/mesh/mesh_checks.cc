@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/mesh_checks.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -217,8 +218,6 @@ namespace perideal
           .hint("make the coarse mesh finer along its curved boundaries, and refine less");
   }
 
-  template void check_refined_mesh(const dealii::Triangulation<2> &, const std::string &);
-  template void check_refined_mesh(const dealii::Triangulation<3> &, const std::string &);
-  template void check_coarse_mesh(const CoarseMesh<2> &);
-  template void check_coarse_mesh(const CoarseMesh<3> &);
+  PERIDEAL_INSTANTIATE(check_refined_mesh)
+  PERIDEAL_INSTANTIATE(check_coarse_mesh)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/parent_mesh.h>
 
@@ -124,10 +125,7 @@ namespace perideal
     return result;
   }
 
-  template bool                                      has_parents(const Mesh<2> &);
-  template bool                                      has_parents(const Mesh<3> &);
-  template dealii::types::global_cell_index          n_parent_cells(const Mesh<2> &);
-  template dealii::types::global_cell_index          n_parent_cells(const Mesh<3> &);
-  template std::unique_ptr<dealii::Triangulation<2>> create_parent_mesh(const Mesh<2> &);
-  template std::unique_ptr<dealii::Triangulation<3>> create_parent_mesh(const Mesh<3> &);
+  PERIDEAL_INSTANTIATE(has_parents)
+  PERIDEAL_INSTANTIATE(n_parent_cells)
+  PERIDEAL_INSTANTIATE(create_parent_mesh)
 } // namespace perideal

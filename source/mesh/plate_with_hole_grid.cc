@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/generators.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -85,6 +86,5 @@ namespace perideal
     name_boundaries(extent, mesh);
   }
 
-  template void generate_plate_with_hole_grid(const MeshParameters &, CoarseMesh<2> &);
-  template void generate_plate_with_hole_grid(const MeshParameters &, CoarseMesh<3> &);
+  PERIDEAL_INSTANTIATE(generate_plate_with_hole_grid)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/point_location.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -82,6 +83,5 @@ namespace perideal
     return result;
   }
 
-  template class PointLocation<2>;
-  template class PointLocation<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PointLocation)
 } // namespace perideal

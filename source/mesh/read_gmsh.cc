@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/gmsh_inner_faces.h>
 #include <perideal/mesh/gmsh_scan.h>
 #include <perideal/mesh/read_gmsh.h>
@@ -100,6 +101,5 @@ namespace perideal
     mesh.origin          = filename;
   }
 
-  template void read_gmsh(const std::string &, const std::string &, CoarseMesh<2> &);
-  template void read_gmsh(const std::string &, const std::string &, CoarseMesh<3> &);
+  PERIDEAL_INSTANTIATE(read_gmsh)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/neighbourhood/bond_list.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -105,16 +106,7 @@ namespace perideal
       }
   }
 
+  PERIDEAL_INSTANTIATE(exchange_cut_bonds)
   template BondList::BondList(const Families<2> &);
   template BondList::BondList(const Families<3> &);
-  template void exchange_cut_bonds(const Families<2> &,
-                                   const BondList &,
-                                   const std::vector<const double *> &,
-                                   const std::vector<double *> &,
-                                   const std::vector<LocalIndex> &);
-  template void exchange_cut_bonds(const Families<3> &,
-                                   const BondList &,
-                                   const std::vector<const double *> &,
-                                   const std::vector<double *> &,
-                                   const std::vector<LocalIndex> &);
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/base/types.h>
 #include <perideal/neighbourhood/connected_parts.h>
 
@@ -116,6 +117,5 @@ namespace perideal
       body_of_node[i] = part_of_node[i] == no_part ? 0 : numbered.first[part_of_node[i]];
   }
 
-  template struct ConnectedParts<2>;
-  template struct ConnectedParts<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ConnectedParts)
 } // namespace perideal

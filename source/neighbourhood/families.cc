@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/halo.h>
 #include <perideal/neighbourhood/volume_rule.h>
@@ -247,6 +248,5 @@ namespace perideal
            memory_consumption(row) + memory_consumption(neighbour);
   }
 
-  template class Families<2>;
-  template class Families<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Families)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/neighbourhood/halo.h>
 
 #include <deal.II/base/mpi.h>
@@ -120,8 +121,6 @@ namespace perideal
     return result;
   }
 
-  template struct HaloNode<2>;
-  template struct HaloNode<3>;
-  template Halo<2> exchange_halo(const NodeCloud<2> &, const PointTree<2> &);
-  template Halo<3> exchange_halo(const NodeCloud<3> &, const PointTree<3> &);
+  PERIDEAL_INSTANTIATE_CLASS(HaloNode)
+  PERIDEAL_INSTANTIATE(exchange_halo)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/neighbourhood/point_tree.h>
 
 #include <algorithm>
@@ -116,8 +117,6 @@ namespace perideal
     return {};
   }
 
-  template struct HorizonBox<2>;
-  template struct HorizonBox<3>;
-  template class PointTree<2>;
-  template class PointTree<3>;
+  PERIDEAL_INSTANTIATE_CLASS(HorizonBox)
+  PERIDEAL_INSTANTIATE_CLASS(PointTree)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
@@ -96,6 +97,5 @@ namespace perideal
   {
   }
 
-  template class Precrack<2>;
-  template class Precrack<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Precrack)
 } // namespace perideal

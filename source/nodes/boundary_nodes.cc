@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/boundary_nodes.h>
 
 #include <algorithm>
@@ -24,8 +25,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<LocalIndex>
-  nodes_on_boundary(const Mesh<2> &, const Nodes<2> &, const dealii::types::boundary_id);
-  template std::vector<LocalIndex>
-  nodes_on_boundary(const Mesh<3> &, const Nodes<3> &, const dealii::types::boundary_id);
+  PERIDEAL_INSTANTIATE(nodes_on_boundary)
 } // namespace perideal

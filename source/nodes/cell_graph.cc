@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/nodes/node_partitioner.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/cell_graph.h>
+#include <perideal/nodes/node_partitioner.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -148,6 +149,5 @@ namespace perideal
            cells.size() * sizeof(LocalIndex);
   }
 
-  template class CellGraph<2>;
-  template class CellGraph<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CellGraph)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/cell_keys.h>
 
 namespace perideal
@@ -22,6 +23,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<std::uint64_t> cell_keys(const Mesh<2> &, const Nodes<2> &);
-  template std::vector<std::uint64_t> cell_keys(const Mesh<3> &, const Nodes<3> &);
+  PERIDEAL_INSTANTIATE(cell_keys)
 } // namespace perideal

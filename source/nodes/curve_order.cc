@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/curve_order.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -40,6 +41,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<LocalIndex> order_along_curve(const std::vector<dealii::Point<2>> &);
-  template std::vector<LocalIndex> order_along_curve(const std::vector<dealii::Point<3>> &);
+  PERIDEAL_INSTANTIATE(order_along_curve)
 } // namespace perideal

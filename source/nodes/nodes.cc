@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/cell_keys.h>
 #include <perideal/nodes/curve_order.h>
 #include <perideal/nodes/nodes.h>
@@ -271,8 +272,6 @@ namespace perideal
     this->set_cell_radius(cell_radii(mesh));
   }
 
-  template struct NodeCloud<2>;
-  template struct NodeCloud<3>;
-  template struct Nodes<2>;
-  template struct Nodes<3>;
+  PERIDEAL_INSTANTIATE_CLASS(NodeCloud)
+  PERIDEAL_INSTANTIATE_CLASS(Nodes)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/output/boundary_curve.h>
 #include <perideal/output/gather.h>
 
@@ -148,6 +149,5 @@ namespace perideal
     return result;
   }
 
-  template class BoundaryCurve<2>;
-  template class BoundaryCurve<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BoundaryCurve)
 } // namespace perideal

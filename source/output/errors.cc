@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/output/errors.h>
 
 #include <deal.II/base/mpi.h>
@@ -63,22 +64,8 @@ namespace perideal
     return result;
   }
 
-  template FieldErrors field_errors(const Nodes<2> &,
-                                    const std::vector<dealii::Tensor<1, 2>> &,
-                                    const std::vector<dealii::Tensor<1, 2>> &,
-                                    const std::function<bool(const LocalIndex)> &);
-  template FieldErrors field_errors(const Nodes<3> &,
-                                    const std::vector<dealii::Tensor<1, 3>> &,
-                                    const std::vector<dealii::Tensor<1, 3>> &,
-                                    const std::function<bool(const LocalIndex)> &);
+  PERIDEAL_INSTANTIATE(field_errors)
+  PERIDEAL_INSTANTIATE(profile_errors)
 
   // The number 2 of std::array<double, 2> is no int, so it must be said here.
-  template std::array<double, 2> profile_errors<2>(const Nodes<2> &,
-                                                   const std::vector<LocalIndex> &,
-                                                   const std::vector<dealii::Tensor<1, 2>> &,
-                                                   const std::vector<dealii::Tensor<1, 2>> &);
-  template std::array<double, 3> profile_errors<3>(const Nodes<3> &,
-                                                   const std::vector<LocalIndex> &,
-                                                   const std::vector<dealii::Tensor<1, 3>> &,
-                                                   const std::vector<dealii::Tensor<1, 3>> &);
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/files.h>
 #include <perideal/output/tensor_components.h>
@@ -144,6 +145,5 @@ namespace perideal
     replace_file(directory + "/solution.pvd", record.str());
   }
 
-  template class FieldOutput<2>;
-  template class FieldOutput<3>;
+  PERIDEAL_INSTANTIATE_CLASS(FieldOutput)
 } // namespace perideal

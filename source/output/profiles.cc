@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/boundary_nodes.h>
 #include <perideal/output/files.h>
 #include <perideal/output/gather.h>
@@ -135,10 +136,7 @@ namespace perideal
     return result;
   }
 
-  template class Profile<2>;
-  template class Profile<3>;
-  template class BoundaryProfile<2>;
-  template class BoundaryProfile<3>;
-  template class LineProfile<2>;
-  template class LineProfile<3>;
+  PERIDEAL_INSTANTIATE_CLASS(Profile)
+  PERIDEAL_INSTANTIATE_CLASS(BoundaryProfile)
+  PERIDEAL_INSTANTIATE_CLASS(LineProfile)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
@@ -59,6 +60,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<ArealForcePoint<2>> read_areal_force_points(const ArealForceParameters &);
-  template std::vector<ArealForcePoint<3>> read_areal_force_points(const ArealForceParameters &);
+  PERIDEAL_INSTANTIATE(read_areal_force_points)
 } // namespace perideal

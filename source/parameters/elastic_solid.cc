@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/physics/notation.h>
@@ -163,10 +164,7 @@ namespace perideal
     return {values.begin(), values.end()};
   }
 
-  template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 2> &);
-  template std::vector<double> kelvin_eigenvalues(const SymmetricTensor<4, 3> &);
-  template ElasticSolid<2>     elastic_solid(const SymmetricTensor<4, 2> &);
-  template ElasticSolid<3>     elastic_solid(const SymmetricTensor<4, 3> &);
-  template class ElasticSolid<2>;
-  template class ElasticSolid<3>;
+  PERIDEAL_INSTANTIATE(kelvin_eigenvalues)
+  PERIDEAL_INSTANTIATE(elastic_solid)
+  PERIDEAL_INSTANTIATE_CLASS(ElasticSolid)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
@@ -44,6 +45,5 @@ namespace perideal
     return result;
   }
 
-  template std::vector<Gauge<2>> read_gauges(const GaugeParameters &);
-  template std::vector<Gauge<3>> read_gauges(const GaugeParameters &);
+  PERIDEAL_INSTANTIATE(read_gauges)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/parameters/hyperelastic_law.h>
 
@@ -282,6 +283,5 @@ namespace perideal
     return laws<dim>().get(name)(solid);
   }
 
-  template std::shared_ptr<const HyperelasticLaw<2>> create_law(const std::string &, const ElasticSolid<2> &);
-  template std::shared_ptr<const HyperelasticLaw<3>> create_law(const std::string &, const ElasticSolid<3> &);
+  PERIDEAL_INSTANTIATE(create_law)
 } // namespace perideal

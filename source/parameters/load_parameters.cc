@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
@@ -283,10 +284,7 @@ namespace perideal
     return value_of<dim>(body_force, point, time);
   }
 
-  template struct BoundaryCondition<2>;
-  template struct BoundaryCondition<3>;
-  template struct PointLoad<2>;
-  template struct PointLoad<3>;
-  template struct Loads<2>;
-  template struct Loads<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BoundaryCondition)
+  PERIDEAL_INSTANTIATE_CLASS(PointLoad)
+  PERIDEAL_INSTANTIATE_CLASS(Loads)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/elastic_symmetry.h>
 #include <perideal/parameters/engineering_constants.h>
 
@@ -116,6 +117,5 @@ namespace perideal
     return {turned, assumption};
   }
 
-  template ElasticSolid<2> make_solid(const ElasticSymmetry &, const PlaneAssumption);
-  template ElasticSolid<3> make_solid(const ElasticSymmetry &, const PlaneAssumption);
+  PERIDEAL_INSTANTIATE(make_solid)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/point_text.h>
 
 #include <deal.II/base/utilities.h>
@@ -38,6 +39,5 @@ namespace perideal
     return result;
   }
 
-  template dealii::Point<2> read_point(const std::string &, const std::string &);
-  template dealii::Point<3> read_point(const std::string &, const std::string &);
+  PERIDEAL_INSTANTIATE(read_point)
 } // namespace perideal

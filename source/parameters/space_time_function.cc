@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/parameters/space_time_function.h>
 
 #include <deal.II/base/numbers.h>
@@ -67,6 +68,5 @@ namespace perideal
     return function->value(point);
   }
 
-  template class SpaceTimeFunction<2>;
-  template class SpaceTimeFunction<3>;
+  PERIDEAL_INSTANTIATE_CLASS(SpaceTimeFunction)
 } // namespace perideal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/quadrature/adaptive_integration.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/geometry/cell_in_ball.h>
+#include <perideal/quadrature/adaptive_integration.h>
 
 #include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -263,6 +264,5 @@ namespace perideal
       }
   }
 
-  template class CellPoints<2>;
-  template class CellPoints<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CellPoints)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/quadrature/bond_volume.h>
 #include <perideal/quadrature/cell_shares.h>
 
@@ -149,11 +150,8 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template void prepare_cells(const QuadratureParameters &, const Mesh<dim> &, Nodes<dim> &);                \
-  template std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &);          \
-  template double                                 first_moment(const Families<dim> &, const LocalIndex);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(prepare_cells)
+  PERIDEAL_INSTANTIATE(create_volume_rule)
+  PERIDEAL_INSTANTIATE(first_moment)
+
 } // namespace perideal

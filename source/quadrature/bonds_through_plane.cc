@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/quadrature/bonds_through_plane.h>
 
 #include <deal.II/base/numbers.h>
@@ -114,6 +115,5 @@ namespace perideal
     return result;
   }
 
-  template struct BondsThroughPlane<2>;
-  template struct BondsThroughPlane<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BondsThroughPlane)
 } // namespace perideal

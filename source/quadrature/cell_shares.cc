@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/geometry/cell_in_ball.h>
 #include <perideal/quadrature/cell_shares.h>
 
@@ -134,11 +135,7 @@ namespace perideal
     });
   }
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::shared_ptr<const VolumeRule<dim>> create_exact_shares();                                     \
-  template std::shared_ptr<const VolumeRule<dim>> create_adaptive_shares(const IntegrationRule,              \
-                                                                         const IntegrationTolerance &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_INSTANTIATE(create_exact_shares)
+  PERIDEAL_INSTANTIATE(create_adaptive_shares)
+
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/quadrature/bond_volume.h>
 #include <perideal/quadrature/gauss_points.h>
 #include <perideal/quadrature/moving_least_squares.h>
@@ -183,8 +184,6 @@ namespace perideal
     return result;
   }
 
-  template class GaussPoints<2>;
-  template class GaussPoints<3>;
-  template double first_moment(const Families<2> &, const GaussPoints<2> &, const LocalIndex);
-  template double first_moment(const Families<3> &, const GaussPoints<3> &, const LocalIndex);
+  PERIDEAL_INSTANTIATE_CLASS(GaussPoints)
+  PERIDEAL_INSTANTIATE(first_moment)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/quadrature/moving_least_squares.h>
 
 #include <algorithm>
@@ -114,6 +115,5 @@ namespace perideal
     return true;
   }
 
-  template class MovingLeastSquares<2>;
-  template class MovingLeastSquares<3>;
+  PERIDEAL_INSTANTIATE_CLASS(MovingLeastSquares)
 } // namespace perideal

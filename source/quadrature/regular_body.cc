@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/quadrature/gauss_points.h>
 #include <perideal/quadrature/regular_body.h>
 
@@ -32,6 +33,5 @@ namespace perideal
     return first_moment(families, middle);
   }
 
-  template double regular_first_moment<2>(const NodeParameters &, const QuadratureParameters &);
-  template double regular_first_moment<3>(const NodeParameters &, const QuadratureParameters &);
+  PERIDEAL_INSTANTIATE(regular_first_moment)
 } // namespace perideal

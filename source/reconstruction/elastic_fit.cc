@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/reconstruction/elastic_fit.h>
 
 #include <Eigen/QR>
@@ -176,6 +177,5 @@ namespace perideal
     return result;
   }
 
-  template class ElasticFit<2>;
-  template class ElasticFit<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ElasticFit)
 } // namespace perideal

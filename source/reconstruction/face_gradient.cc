@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/reconstruction/face_gradient.h>
 #include <perideal/reconstruction/linear_interpolation.h>
 
@@ -325,6 +326,5 @@ namespace perideal
            points.size() * sizeof(points[0]) + cells.memory_consumption();
   }
 
-  template class FaceGradient<2>;
-  template class FaceGradient<3>;
+  PERIDEAL_INSTANTIATE_CLASS(FaceGradient)
 } // namespace perideal

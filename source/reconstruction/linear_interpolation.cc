@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/reconstruction/linear_interpolation.h>
 
 #include <Eigen/Eigenvalues>
@@ -90,6 +91,5 @@ namespace perideal
     return result;
   }
 
-  template class LinearInterpolation<2>;
-  template class LinearInterpolation<3>;
+  PERIDEAL_INSTANTIATE_CLASS(LinearInterpolation)
 } // namespace perideal

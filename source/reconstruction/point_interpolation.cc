@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/point_location.h>
 #include <perideal/reconstruction/linear_interpolation.h>
 #include <perideal/reconstruction/point_interpolation.h>
@@ -88,6 +89,5 @@ namespace perideal
     return result;
   }
 
-  template class PointInterpolation<2>;
-  template class PointInterpolation<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PointInterpolation)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/largest_eigenvalue.h>
 #include <perideal/solvers/dynamic_relaxation.h>
 
@@ -20,7 +21,7 @@ namespace perideal
   template <int dim>
   DynamicRelaxation<dim>::DynamicRelaxation(BondForce<dim>                 &bonds,
                                             const ConstrainedOperator<dim> &system,
-                                            const DirichletNodes<dim>           &held,
+                                            const DirichletNodes<dim>      &held,
                                             const Loads<dim>               &loads,
                                             const Controls                 &controls)
     : EquilibriumPath<dim>(bonds, system, held, loads, controls)
@@ -197,6 +198,5 @@ namespace perideal
     in_motion = true;
   }
 
-  template class DynamicRelaxation<2>;
-  template class DynamicRelaxation<3>;
+  PERIDEAL_INSTANTIATE_CLASS(DynamicRelaxation)
 } // namespace perideal

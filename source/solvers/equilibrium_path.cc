@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/solvers/equilibrium_path.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,7 +19,7 @@ namespace perideal
   template <int dim>
   EquilibriumPath<dim>::EquilibriumPath(BondForce<dim>                 &bonds,
                                         const ConstrainedOperator<dim> &system,
-                                        const DirichletNodes<dim>           &held,
+                                        const DirichletNodes<dim>      &held,
                                         const Loads<dim>               &loads,
                                         const Controls                 &controls,
                                         FaceValues<dim>                *face_values)
@@ -222,6 +223,5 @@ namespace perideal
     last_external     = external;
   }
 
-  template class EquilibriumPath<2>;
-  template class EquilibriumPath<3>;
+  PERIDEAL_INSTANTIATE_CLASS(EquilibriumPath)
 } // namespace perideal

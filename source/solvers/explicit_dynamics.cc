@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -7,7 +8,7 @@ namespace perideal
 {
   template <int dim>
   ExplicitDynamics<dim>::ExplicitDynamics(BondForce<dim>            &bonds,
-                                          const DirichletNodes<dim>      &held,
+                                          const DirichletNodes<dim> &held,
                                           const Loads<dim>          &loads,
                                           const std::vector<double> &mass,
                                           const double               damping,
@@ -134,6 +135,5 @@ namespace perideal
     return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
   }
 
-  template class ExplicitDynamics<2>;
-  template class ExplicitDynamics<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ExplicitDynamics)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/assembled_matrix.h>
 #include <perideal/operators/system/auxiliary_space.h>
 #include <perideal/operators/system/block_jacobi.h>
@@ -376,20 +377,6 @@ namespace perideal
     return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem, surface));
   }
 
-  template class LinearSolver<2>;
-  template class LinearSolver<3>;
-  template std::unique_ptr<LinearSolver<2>> create_linear_solver(const SolverParameters &,
-                                                                 const PreconditionerChoice &,
-                                                                 const ConstrainedOperator<2> &,
-                                                                 const NullSpace<2> &,
-                                                                 const Nodes<2> &,
-                                                                 const ElasticFem<2> *,
-                                                                 const SurfaceNodes<2> *);
-  template std::unique_ptr<LinearSolver<3>> create_linear_solver(const SolverParameters &,
-                                                                 const PreconditionerChoice &,
-                                                                 const ConstrainedOperator<3> &,
-                                                                 const NullSpace<3> &,
-                                                                 const Nodes<3> &,
-                                                                 const ElasticFem<3> *,
-                                                                 const SurfaceNodes<3> *);
+  PERIDEAL_INSTANTIATE_CLASS(LinearSolver)
+  PERIDEAL_INSTANTIATE(create_linear_solver)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/solvers/newton.h>
 
 #include <deal.II/base/mpi.h>
@@ -20,16 +21,16 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  NewtonSolver<dim>::NewtonSolver(BondForce<dim>           &bonds,
-                                  TangentOperator<dim>     &tangent,
-                                  ConstrainedOperator<dim> &system,
-                                  TangentSolver<dim>       &linear,
-                                  const DirichletNodes<dim>     &held,
-                                  const Loads<dim>         &loads,
-                                  const NullSpace<dim>     &null_space,
-                                  const Controls           &controls,
-                                  FaceValues<dim>          *face_values,
-                                  const FindFloating       &find_floating)
+  NewtonSolver<dim>::NewtonSolver(BondForce<dim>            &bonds,
+                                  TangentOperator<dim>      &tangent,
+                                  ConstrainedOperator<dim>  &system,
+                                  TangentSolver<dim>        &linear,
+                                  const DirichletNodes<dim> &held,
+                                  const Loads<dim>          &loads,
+                                  const NullSpace<dim>      &null_space,
+                                  const Controls            &controls,
+                                  FaceValues<dim>           *face_values,
+                                  const FindFloating        &find_floating)
     : EquilibriumPath<dim>(bonds, system, held, loads, controls, face_values)
     , tangent(tangent)
     , system(system)
@@ -237,6 +238,5 @@ namespace perideal
     return false;
   }
 
-  template class NewtonSolver<2>;
-  template class NewtonSolver<3>;
+  PERIDEAL_INSTANTIATE_CLASS(NewtonSolver)
 } // namespace perideal

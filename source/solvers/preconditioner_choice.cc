@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/mesh/parent_mesh.h>
 #include <perideal/solvers/preconditioner_choice.h>
 
@@ -163,8 +164,5 @@ namespace perideal
     return result;
   }
 
-  template SolveSize measure_solve(
-    const Mesh<2> &, const Nodes<2> &, const ConstrainedOperator<2> &, const GlobalIndex, const bool);
-  template SolveSize measure_solve(
-    const Mesh<3> &, const Nodes<3> &, const ConstrainedOperator<3> &, const GlobalIndex, const bool);
+  PERIDEAL_INSTANTIATE(measure_solve)
 } // namespace perideal

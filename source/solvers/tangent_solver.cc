@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/solvers/tangent_solver.h>
 
 #include <algorithm>
@@ -84,6 +85,5 @@ namespace perideal
     cost_when_new = state.at("cost").get<double>();
   }
 
-  template class TangentSolver<2>;
-  template class TangentSolver<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TangentSolver)
 } // namespace perideal

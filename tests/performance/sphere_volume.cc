@@ -3,9 +3,9 @@
 // The volume of a horizon's sphere in a grid of cubes, by the schemes of section "Quadrature": K. Yu's
 // thesis, section 2.5.1, Tables 2.2 and 2.3. Prints a Markdown table; see README.md beside this file.
 
+#include <perideal/geometry/cell_in_ball.h>
 #include <perideal/quadrature/adaptive_integration.h>
 #include <perideal/quadrature/bond_volume.h>
-#include <perideal/geometry/cell_in_ball.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -3,9 +3,9 @@
 #define perideal_application_scene_state_h
 
 #include <perideal/boundary/boundary_faces.h>
+#include <perideal/boundary/dirichlet_nodes.h>
 #include <perideal/boundary/face_values.h>
 #include <perideal/boundary/gauges.h>
-#include <perideal/boundary/dirichlet_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
 #include <perideal/boundary/point_forces.h>
 #include <perideal/boundary/published_transfer.h>
@@ -19,16 +19,16 @@
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
-#include <perideal/operators/post/areal_force_density.h>
 #include <perideal/operators/force/bond_force.h>
-#include <perideal/operators/linear/consistent_operator.h>
-#include <perideal/operators/system/constrained_operator.h>
 #include <perideal/operators/force/contact_force.h>
-#include <perideal/operators/weights/correspondence_rows.h>
-#include <perideal/operators/system/null_space.h>
 #include <perideal/operators/force/relative_damping.h>
+#include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/linear/taylor_extension.h>
+#include <perideal/operators/post/areal_force_density.h>
+#include <perideal/operators/system/constrained_operator.h>
+#include <perideal/operators/system/null_space.h>
+#include <perideal/operators/weights/correspondence_rows.h>
 #include <perideal/parameters/hyperelastic_law.h>
 #include <perideal/reconstruction/face_gradient.h>
 #include <perideal/solvers/linear_solver.h>
@@ -65,7 +65,7 @@ namespace perideal
     std::vector<BoundaryFace<dim>> faces;
     /// Those of all ranks, where tractions act in depth.
     std::vector<SurfaceFace<dim>> surface;
-    DirichletNodes<dim>                held;
+    DirichletNodes<dim>           held;
     /// Where the scene needs gradients: the consistent form, strains and stresses do.
     std::shared_ptr<const FaceGradient<dim>> gradient;
     std::shared_ptr<FaceValues<dim>>         face_values;
@@ -74,9 +74,9 @@ namespace perideal
     /// Where prescribed displacements have nodes of their own.
     std::unique_ptr<SurfaceNodes<dim>> surface_nodes;
     /// Where tractions act through transfer functions; the second is the same object, where as printed.
-    std::shared_ptr<const TractionTransfer<dim>> transfer;
-    std::shared_ptr<const PublishedTransfer<dim>>  published_transfer;
-    std::shared_ptr<Families<dim>>               families;
+    std::shared_ptr<const TractionTransfer<dim>>  transfer;
+    std::shared_ptr<const PublishedTransfer<dim>> published_transfer;
+    std::shared_ptr<Families<dim>>                families;
     /// What of the body hangs together.
     std::optional<ConnectedParts<dim>> parts;
 
@@ -93,7 +93,7 @@ namespace perideal
     /// C of whole families by their quadrature [Pa], where the scene needs it.
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
     /// The same object as bonds, where ghosts stand for the bonds that are missing.
-    std::shared_ptr<TaylorExtension<dim>>        ghosts;
+    std::shared_ptr<TaylorExtension<dim>>     ghosts;
     std::unique_ptr<ConstrainedOperator<dim>> system;
     NullSpace<dim>                            null_space;
     std::unique_ptr<ElasticFem<dim>>          auxiliary_fem;

@@ -3,9 +3,9 @@
 #define perideal_boundary_boundary_faces_h
 
 #include <perideal/mesh/mesh.h>
+#include <perideal/nodes/cell_graph.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/nodes/cell_graph.h>
 
 #include <vector>
 

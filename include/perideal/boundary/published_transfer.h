@@ -30,10 +30,10 @@ namespace perideal
     /// @param lambda 0: no L, and no sums for it [N/m^11]
     /// Collective.
     PublishedTransfer(TransferFunctions<dim>                                      functions,
-                    const Loads<dim>                                           &loads,
-                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                    const double                                                chi,
-                    const double                                                lambda);
+                      const Loads<dim>                                           &loads,
+                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                      const double                                                chi,
+                      const double                                                lambda);
 
     void add_tractions(const Loads<dim>                                           &loads,
                        const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,

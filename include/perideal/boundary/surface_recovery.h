@@ -3,8 +3,8 @@
 #define perideal_boundary_surface_recovery_h
 
 #include <perideal/boundary/boundary_faces.h>
-#include <perideal/reconstruction/elastic_fit.h>
 #include <perideal/fem/elastic_fem.h>
+#include <perideal/reconstruction/elastic_fit.h>
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #ifndef perideal_quadrature_adaptive_integration_h
 #define perideal_quadrature_adaptive_integration_h
 
-#include <perideal/nodes/nodes.h>
 #include <perideal/geometry/cell_sections.h>
+#include <perideal/nodes/nodes.h>
 
 #include <deal.II/base/point.h>
 

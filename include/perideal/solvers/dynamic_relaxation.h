@@ -39,7 +39,7 @@ namespace perideal
     /// The other arguments must outlive this object.
     DynamicRelaxation(BondForce<dim>                 &bonds,
                       const ConstrainedOperator<dim> &system,
-                      const DirichletNodes<dim>           &held,
+                      const DirichletNodes<dim>      &held,
                       const Loads<dim>               &loads,
                       const Controls                 &controls);
 

@@ -2,8 +2,8 @@
 #ifndef perideal_solvers_equilibrium_path_h
 #define perideal_solvers_equilibrium_path_h
 
-#include <perideal/boundary/face_values.h>
 #include <perideal/boundary/dirichlet_nodes.h>
+#include <perideal/boundary/face_values.h>
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/system/constrained_operator.h>
 #include <perideal/output/checkpoint.h>
@@ -108,7 +108,7 @@ namespace perideal
     /// @param face_values that the force carries, which this object moves; null: none
     EquilibriumPath(BondForce<dim>                 &bonds,
                     const ConstrainedOperator<dim> &system,
-                    const DirichletNodes<dim>           &held,
+                    const DirichletNodes<dim>      &held,
                     const Loads<dim>               &loads,
                     const Controls                 &controls,
                     FaceValues<dim>                *face_values = nullptr);
@@ -139,11 +139,11 @@ namespace perideal
     /// Sum of the squared forces at prescribed face values [N^2]. Collective.
     double face_reaction_square() const;
 
-    BondForce<dim>       &bonds;
+    BondForce<dim>            &bonds;
     const DirichletNodes<dim> &held;
-    const Loads<dim>     &loads;
-    const Controls        controls;
-    FaceValues<dim>      *face_values;
+    const Loads<dim>          &loads;
+    const Controls             controls;
+    FaceValues<dim>           *face_values;
 
     /// Of the bonds, now and before [N].
     NodalVector force, earlier_force;

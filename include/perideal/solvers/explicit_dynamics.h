@@ -47,7 +47,7 @@ namespace perideal
     /// @param damping force over mass and velocity [1/s]
     /// The arguments must outlive this object.
     ExplicitDynamics(BondForce<dim>            &bonds,
-                     const DirichletNodes<dim>      &held,
+                     const DirichletNodes<dim> &held,
                      const Loads<dim>          &loads,
                      const std::vector<double> &mass,
                      const double               damping,
@@ -95,7 +95,7 @@ namespace perideal
 
   private:
     BondForce<dim>            &bonds;
-    const DirichletNodes<dim>      &held;
+    const DirichletNodes<dim> &held;
     const Loads<dim>          &loads;
     const std::vector<double> &mass;
     const double               damping, time_step;

@@ -2,8 +2,8 @@
 #ifndef perideal_solvers_newton_h
 #define perideal_solvers_newton_h
 
-#include <perideal/operators/system/null_space.h>
 #include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/system/null_space.h>
 #include <perideal/solvers/equilibrium_path.h>
 #include <perideal/solvers/tangent_solver.h>
 
@@ -48,16 +48,16 @@ namespace perideal
     /// @param tangent of the force, the operator behind @p system and @p linear. The arguments must
     /// outlive this object. Collective.
     /// @param find_floating empty where nothing breaks
-    NewtonSolver(BondForce<dim>           &bonds,
-                 TangentOperator<dim>     &tangent,
-                 ConstrainedOperator<dim> &system,
-                 TangentSolver<dim>       &linear,
-                 const DirichletNodes<dim>     &held,
-                 const Loads<dim>         &loads,
-                 const NullSpace<dim>     &null_space,
-                 const Controls           &controls,
-                 FaceValues<dim>          *face_values   = nullptr,
-                 const FindFloating       &find_floating = {});
+    NewtonSolver(BondForce<dim>            &bonds,
+                 TangentOperator<dim>      &tangent,
+                 ConstrainedOperator<dim>  &system,
+                 TangentSolver<dim>        &linear,
+                 const DirichletNodes<dim> &held,
+                 const Loads<dim>          &loads,
+                 const NullSpace<dim>      &null_space,
+                 const Controls            &controls,
+                 FaceValues<dim>           *face_values   = nullptr,
+                 const FindFloating        &find_floating = {});
 
     using EquilibriumPath<dim>::displacement;
 

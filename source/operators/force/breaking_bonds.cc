@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/quadrature/bond_volume.h>
 
@@ -204,6 +205,5 @@ namespace perideal
            2 * position.size() * sizeof(NodeRecord) + ghosted.memory_consumption();
   }
 
-  template class BreakingBonds<2>;
-  template class BreakingBonds<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BreakingBonds)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/curve_order.h>
 #include <perideal/operators/force/contact_force.h>
 
@@ -352,6 +353,5 @@ namespace perideal
     return dealii::Utilities::MPI::max(own_overlap, families->communicator);
   }
 
-  template class ContactForce<2>;
-  template class ContactForce<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ContactForce)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/force/correspondence_force.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -204,6 +205,5 @@ namespace perideal
            dealii::MemoryConsumption::memory_consumption(is_gone) + last.memory_consumption();
   }
 
-  template class CorrespondenceForce<2>;
-  template class CorrespondenceForce<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CorrespondenceForce)
 } // namespace perideal

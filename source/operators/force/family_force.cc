@@ -61,10 +61,9 @@ namespace perideal
                               });
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
+  PERIDEAL_INSTANTIATE_SHAPE(create_bond_force)
   template class FamilyForce<dim, n_sums, own_force_weights>;
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
-  template std::unique_ptr<BondForce<2>> create_bond_force(const BondWeights<2> &);
-  template std::unique_ptr<BondForce<3>> create_bond_force(const BondWeights<3> &);
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

@@ -191,12 +191,12 @@ namespace perideal
     return dealii::Utilities::MPI::sum(-energy - 0.5 * time_step * power, families->communicator);
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::visit_bond_forces(                              \
     const typename BondForce<dim>::VisitBond &) const;                                                       \
   template double FamilyForce<dim, n_sums, own_force_weights>::strain_energy() const;                        \
   template double FamilyForce<dim, n_sums, own_force_weights>::released_energy(const NodalVector &,          \
                                                                                const double) const;
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

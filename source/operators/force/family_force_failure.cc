@@ -65,12 +65,12 @@ namespace perideal
       reweigh_ends(first);
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template bool FamilyForce<dim, n_sums, own_force_weights>::carries_force(const BondIndex) const;           \
   template void FamilyForce<dim, n_sums, own_force_weights>::clear_weights(const BondIndex);                 \
   template void FamilyForce<dim, n_sums, own_force_weights>::break_bonds(                                    \
     const LocalIndex, const BondIndex, const Lanes &);                                                       \
   template void FamilyForce<dim, n_sums, own_force_weights>::restore_broken(const std::vector<BondEnds> &);
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

@@ -158,10 +158,10 @@ namespace perideal
         force.local_element(dim * i + d) = forces[i].value[d];
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<true>(NodalVector &);            \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<false>(NodalVector &);
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

@@ -68,11 +68,11 @@ namespace perideal
     take(*current_weights);
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::reweigh_as_bonds_break(                         \
     const std::shared_ptr<const BondWeights<dim>> &, const BondForce<dim>::Reweigh &);                       \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_and_reweigh(NodalVector &);             \
   template void FamilyForce<dim, n_sums, own_force_weights>::reweigh_ends(const std::size_t);
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/force/relative_damping.h>
 #include <perideal/quadrature/bond_volume.h>
 
@@ -107,6 +108,5 @@ namespace perideal
     return undamped * (std::sqrt(1. + damping_ratio * damping_ratio) - damping_ratio);
   }
 
-  template class RelativeDamping<2>;
-  template class RelativeDamping<3>;
+  PERIDEAL_INSTANTIATE_CLASS(RelativeDamping)
 } // namespace perideal

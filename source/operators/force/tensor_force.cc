@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/force/tensor_force.h>
 
 #include <deal.II/base/mpi.h>
@@ -178,6 +179,5 @@ namespace perideal
     return this->breaking_memory() + tensors.tensors_memory() + displacements.size() * sizeof(NodeRecord);
   }
 
-  template class TensorForce<2>;
-  template class TensorForce<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TensorForce)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/family_operator.h>
 #include <perideal/operators/linear/tensor_operator.h>
 
@@ -27,8 +28,7 @@ namespace perideal
                               });
   }
 
-  template class BondOperator<2>;
-  template class BondOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BondOperator)
   template std::unique_ptr<BondOperator<2>>
   create_bond_operator(const std::shared_ptr<const BondWeights<2>> &);
   template std::unique_ptr<BondOperator<3>>

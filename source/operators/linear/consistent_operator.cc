@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/node_partitioner.h>
 #include <perideal/operators/linear/consistent_operator.h>
 
@@ -210,6 +211,5 @@ namespace perideal
            n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) + gradient->memory_consumption();
   }
 
-  template class ConsistentOperator<2>;
-  template class ConsistentOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ConsistentOperator)
 } // namespace perideal

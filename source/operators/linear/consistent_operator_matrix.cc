@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/consistent_operator.h>
 
 #include <algorithm>
@@ -208,6 +209,5 @@ namespace perideal
       }
   }
 
-  template class ConsistentOperator<2>;
-  template class ConsistentOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ConsistentOperator)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -142,6 +143,5 @@ namespace perideal
     return moduli.size() * sizeof(Moduli) + dealii::MemoryConsumption::memory_consumption(moduli_of);
   }
 
-  template class CorrespondenceTangent<2>;
-  template class CorrespondenceTangent<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CorrespondenceTangent)
 } // namespace perideal

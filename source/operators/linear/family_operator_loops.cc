@@ -206,9 +206,9 @@ namespace perideal
         force.local_element(dim * i + d) = -forces[i].value[d];
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template class FamilyOperator<dim, n_sums, own_force_weights, false>;                                      \
   template class FamilyOperator<dim, n_sums, own_force_weights, true>;
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

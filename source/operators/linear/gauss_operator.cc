@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/gauss_operator.h>
 #include <perideal/quadrature/bond_volume.h>
 
@@ -259,6 +260,5 @@ namespace perideal
            memory_consumption(half_modulus) + memory_consumption(far_factor);
   }
 
-  template class GaussOperator<2>;
-  template class GaussOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(GaussOperator)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/nodal_springs.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -64,6 +65,5 @@ namespace perideal
     return bonds->memory_consumption() + dealii::MemoryConsumption::memory_consumption(stiffness);
   }
 
-  template class NodalSprings<2>;
-  template class NodalSprings<3>;
+  PERIDEAL_INSTANTIATE_CLASS(NodalSprings)
 } // namespace perideal

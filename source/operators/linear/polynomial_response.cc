@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/polynomial_response.h>
 
 #include <deal.II/base/mpi.h>
@@ -175,6 +176,5 @@ namespace perideal
     return result;
   }
 
-  template class PolynomialResponse<2>;
-  template class PolynomialResponse<3>;
+  PERIDEAL_INSTANTIATE_CLASS(PolynomialResponse)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/materials/tensor_involved.h>
 #include <perideal/operators/linear/surface_cure.h>
 
@@ -113,6 +114,5 @@ namespace perideal
            dealii::MemoryConsumption::memory_consumption(traces) + forces.memory_consumption();
   }
 
-  template class SurfaceCure<2>;
-  template class SurfaceCure<3>;
+  PERIDEAL_INSTANTIATE_CLASS(SurfaceCure)
 } // namespace perideal

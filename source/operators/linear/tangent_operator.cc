@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/family_operator.h>
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/linear/tensor_operator.h>
@@ -132,8 +133,6 @@ namespace perideal
       });
   }
 
-  template class TangentOperator<2>;
-  template class TangentOperator<3>;
-  template std::unique_ptr<TangentOperator<2>> create_tangent(const std::shared_ptr<const BondWeights<2>> &);
-  template std::unique_ptr<TangentOperator<3>> create_tangent(const std::shared_ptr<const BondWeights<3>> &);
+  PERIDEAL_INSTANTIATE_CLASS(TangentOperator)
+  PERIDEAL_INSTANTIATE(create_tangent)
 } // namespace perideal

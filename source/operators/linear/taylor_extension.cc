@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/polynomial_response.h>
 #include <perideal/operators/linear/taylor_extension.h>
 
@@ -37,7 +38,7 @@ namespace perideal
 
   template <int dim>
   dealii::Tensor<1, dim> TaylorExtension<dim>::Rows::of_nodes(const std::size_t  r,
-                                                           const NodalVector &ghosted) const
+                                                              const NodalVector &ghosted) const
   {
     dealii::Tensor<1, dim> result;
     for (std::size_t m = rows[r].first_node; m < end_node(r); ++m)
@@ -69,14 +70,15 @@ namespace perideal
   }
 
   template <int dim>
-  TaylorExtension<dim>::TaylorExtension(const std::shared_ptr<const BondOperator<dim>>             &bonds,
-                                  const std::shared_ptr<const Families<dim>>                 &families,
-                                  const NodeCloud<dim>                                       &nodes,
-                                  const std::vector<BoundaryFace<dim>>                       &faces,
-                                  const std::vector<SurfaceFace<dim>>                        &surface,
-                                  const Loads<dim>                                           &loads,
-                                  const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                  const dealii::SymmetricTensor<4, dim>                      &stiffness)
+  TaylorExtension<dim>::TaylorExtension(
+    const std::shared_ptr<const BondOperator<dim>>             &bonds,
+    const std::shared_ptr<const Families<dim>>                 &families,
+    const NodeCloud<dim>                                       &nodes,
+    const std::vector<BoundaryFace<dim>>                       &faces,
+    const std::vector<SurfaceFace<dim>>                        &surface,
+    const Loads<dim>                                           &loads,
+    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+    const dealii::SymmetricTensor<4, dim>                      &stiffness)
     : bonds(bonds)
     , families(families)
     , ghosted(families->make_partitioner(dim))
@@ -121,10 +123,10 @@ namespace perideal
 
   template <int dim>
   void TaylorExtension<dim>::find_near_faces(const NodeCloud<dim>                 &nodes,
-                                          const std::vector<BoundaryFace<dim>> &faces,
-                                          const std::vector<SurfaceFace<dim>>  &surface,
-                                          std::vector<NearFaces>               &near,
-                                          std::vector<std::uint8_t>            &is_inside) const
+                                             const std::vector<BoundaryFace<dim>> &faces,
+                                             const std::vector<SurfaceFace<dim>>  &surface,
+                                             std::vector<NearFaces>               &near,
+                                             std::vector<std::uint8_t>            &is_inside) const
   {
     std::vector<std::vector<dealii::Point<dim>>> own(nodes.size());
     for (const BoundaryFace<dim> &face : faces)
@@ -249,6 +251,5 @@ namespace perideal
            points.size() * sizeof(points[0]) + ghosted.memory_consumption();
   }
 
-  template class TaylorExtension<2>;
-  template class TaylorExtension<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TaylorExtension)
 } // namespace perideal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/operators/weights/nodal_records.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/tensor_operator.h>
+#include <perideal/operators/weights/nodal_records.h>
 
 #include <algorithm>
 
@@ -133,6 +134,5 @@ namespace perideal
            ghosted.memory_consumption();
   }
 
-  template class TensorOperator<2>;
-  template class TensorOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TensorOperator)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/boundary/surface_planes.h>
 #include <perideal/operators/post/areal_force_density.h>
 #include <perideal/quadrature/moving_least_squares.h>
@@ -278,6 +279,5 @@ namespace perideal
     return result;
   }
 
-  template class ArealForceDensity<2>;
-  template class ArealForceDensity<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ArealForceDensity)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/post/mirror_reactions.h>
 
 #include <deal.II/base/mpi.h>
@@ -59,8 +60,6 @@ namespace perideal
     return result;
   }
 
-  template struct MirrorReactions<2>;
-  template struct MirrorReactions<3>;
-  template MirrorReactions<2> sum_mirror_reactions(const ConstrainedOperator<2> &, const unsigned int);
-  template MirrorReactions<3> sum_mirror_reactions(const ConstrainedOperator<3> &, const unsigned int);
+  PERIDEAL_INSTANTIATE_CLASS(MirrorReactions)
+  PERIDEAL_INSTANTIATE(sum_mirror_reactions)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/assembled_matrix.h>
 
 #include <deal.II/base/mpi.h>
@@ -116,6 +117,5 @@ namespace perideal
     matrix.compress(dealii::VectorOperation::add);
   }
 
-  template void assemble_matrix(const ConstrainedOperator<2> &, dealii::TrilinosWrappers::SparseMatrix &);
-  template void assemble_matrix(const ConstrainedOperator<3> &, dealii::TrilinosWrappers::SparseMatrix &);
+  PERIDEAL_INSTANTIATE(assemble_matrix)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/auxiliary_space.h>
 #include <perideal/operators/system/largest_eigenvalue.h>
 
@@ -210,6 +211,5 @@ namespace perideal
     add_prolonged(destination, coarse_solution);
   }
 
-  template class AuxiliarySpace<2>;
-  template class AuxiliarySpace<3>;
+  PERIDEAL_INSTANTIATE_CLASS(AuxiliarySpace)
 } // namespace perideal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/block_jacobi.h>
 
 #include <cmath>
@@ -41,6 +42,5 @@ namespace perideal
         }
   }
 
-  template class BlockJacobi<2>;
-  template class BlockJacobi<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BlockJacobi)
 } // namespace perideal

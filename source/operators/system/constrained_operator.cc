@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/nodes/node_partitioner.h>
 #include <perideal/operators/system/constrained_operator.h>
 
@@ -73,6 +74,5 @@ namespace perideal
     return blocks;
   }
 
-  template class ConstrainedOperator<2>;
-  template class ConstrainedOperator<3>;
+  PERIDEAL_INSTANTIATE_CLASS(ConstrainedOperator)
 } // namespace perideal

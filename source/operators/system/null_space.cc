@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/null_space.h>
 
 #include <deal.II/base/mpi.h>
@@ -96,6 +97,5 @@ namespace perideal
           displacement[i][d] -= amount[a] * basis[a].local_element(dim * i + d);
   }
 
-  template class NullSpace<2>;
-  template class NullSpace<3>;
+  PERIDEAL_INSTANTIATE_CLASS(NullSpace)
 } // namespace perideal

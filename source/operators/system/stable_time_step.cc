@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/system/largest_eigenvalue.h>
 #include <perideal/operators/system/stable_time_step.h>
 
@@ -22,8 +23,5 @@ namespace perideal
     return 2. / std::sqrt(estimate_largest_eigenvalue(system, inverse_mass));
   }
 
-  template double stable_time_step(const ConstrainedOperator<2> &,
-                                   const std::function<double(const dealii::types::material_id)> &);
-  template double stable_time_step(const ConstrainedOperator<3> &,
-                                   const std::function<double(const dealii::types::material_id)> &);
+  PERIDEAL_INSTANTIATE(stable_time_step)
 } // namespace perideal

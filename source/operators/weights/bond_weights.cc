@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/bond_weights.h>
 
 #include <deal.II/base/mpi.h>
@@ -67,6 +68,5 @@ namespace perideal
       *count = dealii::Utilities::MPI::sum(*count, families->communicator);
   }
 
-  template class BondWeights<2>;
-  template class BondWeights<3>;
+  PERIDEAL_INSTANTIATE_CLASS(BondWeights)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/correspondence_rows.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -270,6 +271,5 @@ namespace perideal
            ghosted.memory_consumption() + ghosted_forces.memory_consumption();
   }
 
-  template class CorrespondenceRows<2>;
-  template class CorrespondenceRows<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CorrespondenceRows)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/correspondence_rows.h>
 
 #include <algorithm>
@@ -131,8 +132,7 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceRows<dim>::assemble(const TangentOf                            &tangent_of,
-                                         const AddBlock &add) const
+  void CorrespondenceRows<dim>::assemble(const TangentOf &tangent_of, const AddBlock &add) const
   {
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
@@ -181,6 +181,5 @@ namespace perideal
       }
   }
 
-  template class CorrespondenceRows<2>;
-  template class CorrespondenceRows<3>;
+  PERIDEAL_INSTANTIATE_CLASS(CorrespondenceRows)
 } // namespace perideal

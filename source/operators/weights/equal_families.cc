@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/equal_families.h>
 
 #include <algorithm>
@@ -191,6 +192,5 @@ namespace perideal
     return static_cast<LocalIndex>(ends.size() - 1);
   }
 
-  template class EqualFamilies<2>;
-  template class EqualFamilies<3>;
+  PERIDEAL_INSTANTIATE_CLASS(EqualFamilies)
 } // namespace perideal

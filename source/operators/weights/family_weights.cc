@@ -248,17 +248,9 @@ namespace perideal
       });
   }
 
-#define PERIDEAL_INSTANTIATE(dim, n_sums, own_force_weights)                                                 \
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights) PERIDEAL_INSTANTIATE_SHAPE(weigh_bonds)
   template class FamilyWeights<dim, n_sums, own_force_weights>;
-  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE)
-#undef PERIDEAL_INSTANTIATE
+  PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
+#undef PERIDEAL_INSTANTIATE_SHAPE
 
-#define PERIDEAL_INSTANTIATE(dim)                                                                            \
-  template std::shared_ptr<BondWeights<dim>> weigh_bonds(const std::shared_ptr<const Families<dim>> &,       \
-                                                         LinearModel<dim> &,                                 \
-                                                         const SolidOf<dim> &,                               \
-                                                         const Weighing<dim> &);
-  PERIDEAL_INSTANTIATE(2)
-  PERIDEAL_INSTANTIATE(3)
-#undef PERIDEAL_INSTANTIATE
 } // namespace perideal

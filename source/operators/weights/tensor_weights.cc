@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/tensor_weights.h>
 
 namespace perideal
@@ -45,6 +46,5 @@ namespace perideal
             this->component[p][slot] += far_values[p][slot];
   }
 
-  template class TensorWeights<2>;
-  template class TensorWeights<3>;
+  PERIDEAL_INSTANTIATE_CLASS(TensorWeights)
 } // namespace perideal

@@ -87,10 +87,10 @@ TEST(BoundaryFaces, UnknownAndDoubleConditionsAreErrors)
 
 TEST(DirichletNodes, TakeTheBoundarysValue)
 {
-  const Scene        scene({held("0", "3*y*t", ""), held("3", "", "5")});
+  const Scene             scene({held("0", "3*y*t", ""), held("3", "", "5")});
   const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
-  NodalVector        u = scene.field();
-  u                    = 7.;
+  NodalVector             u = scene.field();
+  u                         = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
   double n_left = 0, n_top = 0;
   for (const auto &face : scene.faces)
@@ -116,11 +116,11 @@ TEST(DirichletNodes, TakeTheBoundarysValue)
 
 TEST(DirichletNodes, ReactionsAreSummedByCondition)
 {
-  const Scene        scene({held("0", "0", "0"), held("1", "1", "")});
+  const Scene             scene({held("0", "0", "0"), held("1", "1", "")});
   const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
-  NodalVector        force = scene.field();
-  force                    = 2.;
-  const auto reactions     = nodes.sum_by_condition(force, MPI_COMM_WORLD);
+  NodalVector             force = scene.field();
+  force                         = 2.;
+  const auto reactions          = nodes.sum_by_condition(force, MPI_COMM_WORLD);
   EXPECT_NEAR(reactions[0][0], 12., 1e-13);
   EXPECT_NEAR(reactions[0][1], 12., 1e-13);
   EXPECT_NEAR(reactions[1][0], 12., 1e-13);
@@ -129,10 +129,10 @@ TEST(DirichletNodes, ReactionsAreSummedByCondition)
 
 TEST(DirichletNodes, LayersTakeTheFieldAtTheirNodes)
 {
-  const Scene        scene({held("0", "3*y*t", ""), held("3", "x+1", "5")});
+  const Scene             scene({held("0", "3*y*t", ""), held("3", "x+1", "5")});
   const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 3);
-  NodalVector        u = scene.field();
-  u                    = 7.;
+  NodalVector             u = scene.field();
+  u                         = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
   // The vertices of a cell of 1/8 move by 0.2 cells at most, which moves no centroid by half a cell.
   double n_left = 0, n_top = 0;
@@ -179,7 +179,7 @@ TEST(DirichletNodes, LayersCrossRanks)
     {
       const auto mesh =
         test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3, k == 0 ? MPI_COMM_SELF : MPI_COMM_WORLD);
-      const Nodes<2>     nodes(*mesh, NodeParameters{3.01});
+      const Nodes<2>          nodes(*mesh, NodeParameters{3.01});
       const DirichletNodes<2> layers(
         *mesh, nodes, find_boundary_faces(*mesh, nodes), loads, resolve_boundaries(*mesh, loads), 4);
       n_held[k] = std::count(layers.mask().begin(), layers.mask().end(), 1);
@@ -191,7 +191,7 @@ TEST(DirichletNodes, LayersCrossRanks)
 TEST(DirichletNodes, InfiniteValuesAreErrors)
 {
   // Finite at the boundary, a pole within.
-  const Scene        scene({held("0", "0", "1/(x-0.0625)")}, 0.);
+  const Scene             scene({held("0", "0", "1/(x-0.0625)")}, 0.);
   const DirichletNodes<2> first(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
   first.check_finite(scene.loads, 1., MPI_COMM_WORLD);
   const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 2);

@@ -250,11 +250,11 @@ TEST(PublishedTransfer, HasTheSumsOfLAsPrinted)
   hold.displacement = {{"0.1*y*t", "", ""}};
   LoadParameters text;
   text.conditions.push_back(hold);
-  const Loads<2>           loads(text);
-  const double             chi = 3.59, lambda = 7.;
-  TransferFunctions<2>     functions(nodes, faces);
+  const Loads<2>             loads(text);
+  const double               chi = 3.59, lambda = 7.;
+  TransferFunctions<2>       functions(nodes, faces);
   const PublishedTransfer<2> transfer(functions, loads, {{0, 3}}, chi, lambda);
-  dealii::IndexSet         owned(2 * nodes.n_global);
+  dealii::IndexSet           owned(2 * nodes.n_global);
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
   NodalVector force(owned, MPI_COMM_WORLD);
   transfer.add_places(loads, 2., force);

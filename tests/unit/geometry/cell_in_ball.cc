@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/mesh/create_mesh.h>
 #include <perideal/geometry/cell_in_ball.h>
+#include <perideal/mesh/create_mesh.h>
 
 #include "bodies.h"
 #include "testing.h"

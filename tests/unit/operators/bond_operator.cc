@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/system/assembled_matrix.h>
 #include <perideal/operators/linear/consistent_operator.h>
-#include <perideal/operators/system/constrained_operator.h>
 #include <perideal/operators/linear/surface_cure.h>
+#include <perideal/operators/system/assembled_matrix.h>
+#include <perideal/operators/system/constrained_operator.h>
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/weights/equal_families.h>
 #include <perideal/operators/linear/family_operator.h>
+#include <perideal/operators/weights/equal_families.h>
 #include <perideal/operators/weights/family_weights.h>
 
 #include "bodies.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/bond_based.h>
-#include <perideal/operators/system/assembled_matrix.h>
 #include <perideal/operators/linear/gauss_operator.h>
+#include <perideal/operators/system/assembled_matrix.h>
 
 #include "bodies.h"
 #include "testing.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/system/assembled_matrix.h>
 #include <perideal/operators/linear/polynomial_response.h>
 #include <perideal/operators/linear/taylor_extension.h>
+#include <perideal/operators/system/assembled_matrix.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -115,9 +115,9 @@ namespace
 
     /// @param acting of the tractions
     std::shared_ptr<TaylorExtension<dim>> make_ghosts(const Mesh<dim>                       &mesh,
-                                                   const dealii::SymmetricTensor<4, dim> &acting,
-                                                   const dealii::SymmetricTensor<4, dim> &material,
-                                                   const std::vector<unsigned int>       &held)
+                                                      const dealii::SymmetricTensor<4, dim> &acting,
+                                                      const dealii::SymmetricTensor<4, dim> &material,
+                                                      const std::vector<unsigned int>       &held)
     {
       // Boundaries are numbered lower x, upper x, lower y, ...
       LoadParameters text;
@@ -140,13 +140,13 @@ namespace
       loads      = Loads<dim>(text);
       boundaries = resolve_boundaries(mesh, loads);
       return std::make_shared<TaylorExtension<dim>>(plain,
-                                                 body.families,
-                                                 body.nodes,
-                                                 faces,
-                                                 gather_faces(faces, MPI_COMM_WORLD),
-                                                 loads,
-                                                 boundaries,
-                                                 material);
+                                                    body.families,
+                                                    body.nodes,
+                                                    faces,
+                                                    gather_faces(faces, MPI_COMM_WORLD),
+                                                    loads,
+                                                    boundaries,
+                                                    material);
     }
 
     NodalVector displacement() const
@@ -187,7 +187,7 @@ namespace
     std::vector<std::vector<dealii::types::boundary_id>> boundaries;
     dealii::SymmetricTensor<4, dim>                      stiffness;
     std::shared_ptr<BondOperator<dim>>                   plain;
-    std::shared_ptr<TaylorExtension<dim>>                   ghosts;
+    std::shared_ptr<TaylorExtension<dim>>                ghosts;
   };
 
   /// Stretch, shear and rotation, and curvature where asked for.

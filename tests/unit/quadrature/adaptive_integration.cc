@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/quadrature/adaptive_integration.h>
 #include <perideal/geometry/cell_in_ball.h>
+#include <perideal/quadrature/adaptive_integration.h>
 
 #include "testing.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/geometry/cell_in_ball.h>
 #include <perideal/materials/bond_based.h>
 #include <perideal/quadrature/bond_volume.h>
-#include <perideal/geometry/cell_in_ball.h>
 
 #include "bodies.h"
 #include "springs.h"

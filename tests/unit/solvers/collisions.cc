@@ -88,7 +88,7 @@ namespace
     std::unique_ptr<Mesh<2>>            mesh;
     test::Body<2>                       body;
     Loads<2>                            loads;
-    DirichletNodes<2>                        held;
+    DirichletNodes<2>                   held;
     std::vector<double>                 mass;
     std::shared_ptr<BondWeights<2>>     weights;
     std::unique_ptr<BondForce<2>>       bonds;

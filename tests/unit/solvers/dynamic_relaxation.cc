@@ -98,7 +98,7 @@ namespace
 
     test::Body<dim>                           body;
     Loads<dim>                                loads;
-    DirichletNodes<dim>                            held;
+    DirichletNodes<dim>                       held;
     std::shared_ptr<BondWeights<dim>>         weights;
     std::unique_ptr<BondForce<dim>>           bonds;
     std::unique_ptr<ConstrainedOperator<dim>> system;

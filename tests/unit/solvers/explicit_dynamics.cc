@@ -47,7 +47,7 @@ namespace
 
     test::Body<2>                 body;
     Loads<2>                      loads;
-    DirichletNodes<2>                  held;
+    DirichletNodes<2>             held;
     std::vector<double>           mass;
     std::unique_ptr<BondForce<2>> bonds;
     NodalVector                   no_load;

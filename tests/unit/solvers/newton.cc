@@ -74,7 +74,7 @@ namespace
     test::Body<2>                           body;
     std::shared_ptr<MirrorLayer<2>>         mirror;
     Loads<2>                                loads;
-    DirichletNodes<2>                            held;
+    DirichletNodes<2>                       held;
     NullSpace<2>                            null_space;
     SolverParameters                        parameters;
     std::unique_ptr<BondForce<2>>           bonds;

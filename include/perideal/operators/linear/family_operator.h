@@ -4,8 +4,8 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/linear/bond_operator.h>
-#include <perideal/operators/weights/family_weights.h>
 #include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/weights/family_weights.h>
 
 #include <deal.II/base/aligned_vector.h>
 

@@ -91,7 +91,7 @@ namespace perideal
     /// BondOperator. Collective.
     using TangentOf = std::function<dealii::Tensor<4, dim>(const LocalIndex)>;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks(const TangentOf &tangent_of) const;
-    void assemble(const TangentOf &tangent_of, const AddBlock &add) const;
+    void                                assemble(const TangentOf &tangent_of, const AddBlock &add) const;
 
     std::size_t memory_consumption() const;
 
