@@ -3,6 +3,7 @@
 #define perideal_geometry_cell_sections_h
 
 #include <perideal/base/types.h>
+#include <perideal/geometry/cell_vertices.h>
 
 #include <deal.II/base/point.h>
 

@@ -3,6 +3,7 @@
 #define perideal_nodes_nodes_h
 
 #include <perideal/base/types.h>
+#include <perideal/geometry/cell_vertices.h>
 #include <perideal/mesh/mesh.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -29,10 +30,6 @@ namespace perideal
     /// @throws InputError when the factor cannot make families, or a perturbation takes nodes out of cells.
     void check() const;
   };
-
-  /// Vertices of a quadrilateral or hexahedron in the order of deal.II [m].
-  template <int dim>
-  using CellVertices = std::array<dealii::Point<dim>, (1u << dim)>;
 
   /**
    * Peridynamic nodes of this rank: what the neighbour search and the materials
