@@ -54,7 +54,7 @@ namespace perideal
     // No external force acts on nodes that are not those of cells.
     force = 0.;
     if (parameters.model.is_consistent())
-      compute_nodal_forces(
+      compute_forces_at_faces(
         *scene.nodes, scene.faces, *scene.gradient, given, scene.condition_boundaries, time, force);
     else
       compute_nodal_forces(*scene.nodes,

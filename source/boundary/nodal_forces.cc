@@ -68,13 +68,13 @@ namespace perideal
   }
 
   template <int dim>
-  void compute_nodal_forces(const Nodes<dim>                                           &nodes,
-                            const std::vector<BoundaryFace<dim>>                       &faces,
-                            const FaceGradient<dim>                                    &gradient,
-                            const Loads<dim>                                           &loads,
-                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                            const double                                                time,
-                            NodalVector                                                &force)
+  void compute_forces_at_faces(const Nodes<dim>                                           &nodes,
+                               const std::vector<BoundaryFace<dim>>                       &faces,
+                               const FaceGradient<dim>                                    &gradient,
+                               const Loads<dim>                                           &loads,
+                               const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
+                               const double                                                time,
+                               NodalVector                                                &force)
   {
     // The virtual work of a traction, t v_f A, acts on the nodes that make v_f.
     std::vector<dealii::Tensor<1, dim>> of_faces(gradient.graph().n_local());
@@ -101,5 +101,6 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE(compute_nodal_forces)
+  PERIDEAL_INSTANTIATE(compute_forces_at_faces)
 
 } // namespace perideal

@@ -185,5 +185,6 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE_CLASS(GaussPoints)
-  PERIDEAL_INSTANTIATE(first_moment)
+  template double first_moment(const Families<2> &, const GaussPoints<2> &, const LocalIndex);
+  template double first_moment(const Families<3> &, const GaussPoints<3> &, const LocalIndex);
 } // namespace perideal

@@ -18,13 +18,13 @@ namespace perideal
 
 /// Compiles a function template of the dimension, which has no overloads, for 2-D and 3-D. Stands once, at
 /// the end of the source file that defines it.
-#define PERIDEAL_INSTANTIATE(function)   \
-  template struct Instance<&function<2>>; \
+#define PERIDEAL_INSTANTIATE(function)                                                                       \
+  template struct Instance<&function<2>>;                                                                    \
   template struct Instance<&function<3>>;
 
 /// The same for a class template and all of its members.
-#define PERIDEAL_INSTANTIATE_CLASS(name) \
-  template class name<2>;                \
+#define PERIDEAL_INSTANTIATE_CLASS(name)                                                                     \
+  template class name<2>;                                                                                    \
   template class name<3>;
 
 #endif

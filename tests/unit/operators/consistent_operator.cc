@@ -46,7 +46,7 @@ namespace
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         for (int d = 0; d < dim; ++d)
           displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
-      compute_nodal_forces(body.nodes, faces, *gradient, loads, boundaries, 1., external);
+      compute_forces_at_faces(body.nodes, faces, *gradient, loads, boundaries, 1., external);
       bonds->internal_force(force, displacement);
       double size = 0, worst = 0;
       for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
