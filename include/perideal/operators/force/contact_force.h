@@ -3,31 +3,14 @@
 #define perideal_operators_force_contact_force_h
 
 #include <perideal/operators/force/bond_force.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <perideal/operators/force/contact_parameters.h>
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace perideal
 {
-  /// Section "Contact".
-  struct ContactParameters
-  {
-    /// automatic | true | false
-    std::string enabled = "automatic";
-    /// Contact distance over the mean spacing, and over the distance at rest [-].
-    double distance = 0.9;
-    /// Stiffness of a pair in terms of K V/horizon^2 [-].
-    double stiffness = 3.;
-
-    void declare(dealii::ParameterHandler &prm);
-    /// @throws InputError on values outside their ranges.
-    void check() const;
-  };
-
   /**
    * Short-range force between nodes without an intact bond, which keeps fragments from passing
    * through each other (Macek & Silling 2007, Finite Elements in Analysis and Design 43): nodes that are

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/solvers/solver_parameters.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  void SolverParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Solver");
+    prm.add_parameter(
+      "Name",
+      name,
+      "What is solved: static: equilibrium under the final loads; quasi static: equilibria under Load "
+      "steps, geometrically nonlinear, in which bonds break where a fracture energy or critical stretch is "
+      "given, by Newton's method; dynamic relaxation: the same by a damped motion; dynamics: motion from "
+      "t = 0 to End time, explicit, otherwise as these",
+      Selection("static|quasi static|dynamic relaxation|dynamics"));
+    prm.add_parameter(
+      "Tolerance",
+      tolerance,
+      "Residual over the first residual at which a linear solve ends, or over the norm of loads "
+      "or reactions at which an equilibrium of quasi static or dynamic relaxation does, 0 < tolerance < 1 "
+      "[-]",
+      Double());
+    prm.add_parameter(
+      "Maximum iterations",
+      max_iterations,
+      "Iterations after which a linear solve has failed, or an equilibrium of dynamic relaxation; there they "
+      "are counted anew after every break",
+      Integer(1));
+    prm.add_parameter(
+      "Newton iterations",
+      newton_iterations,
+      "Iterations after which an equilibrium of quasi static has failed, > 0; they are counted "
+      "anew after every break",
+      Integer(1));
+    prm.add_parameter(
+      "Step halvings",
+      step_halvings,
+      "Times that a load step of quasi static that fails is halved, or a part of it that fails again; 0: it "
+      "fails at once",
+      Integer(0, 30));
+    prm.add_parameter(
+      "Linear solver",
+      linear_solver,
+      "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
+      "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
+      "small problems",
+      Selection("automatic|cg|gmres|trilinos cg|trilinos gmres|direct"));
+    prm.add_parameter(
+      "Preconditioner",
+      preconditioner,
+      "automatic: auxiliary or block jacobi, whichever is estimated to take less work; auxiliary: block "
+      "Jacobi plus multigrid on the finite-element matrix of the same body, in few iterations at any "
+      "size; block jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
+      Selection("automatic|auxiliary|block jacobi|none"));
+    prm.add_parameter(
+      "Auxiliary mesh",
+      auxiliary_mesh,
+      "Where the finite elements of the auxiliary preconditioner live. same: on the cells of the "
+      "mesh; parent: on the cells before the last refinement, fewer by 4 (2-D) or 8 (3-D); "
+      "automatic: parent where the mesh was refined",
+      Selection("automatic|same|parent"));
+    prm.add_parameter("Load steps",
+                      load_steps,
+                      "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
+                      Integer(1));
+    prm.add_parameter("End time", end_time, "When dynamics end, > 0 [s]", Double());
+    prm.add_parameter("Time step",
+                      time_step,
+                      "Step of dynamics [s]; 0: the largest stable one times Time step safety",
+                      Double());
+    prm.add_parameter("Time step safety",
+                      time_step_safety,
+                      "Part of the largest stable step that is taken, 0 < safety <= 1 [-]",
+                      Double());
+    prm.add_parameter(
+      "Integrator",
+      integrator,
+      "velocity verlet: initial velocities are those at t = 0; symplectic euler: those half a "
+      "step before; central differences both",
+      Selection("velocity verlet|symplectic euler"));
+    prm.add_parameter("Damping", damping, "Viscous force over mass and velocity, >= 0 [1/s]", Double());
+    prm.add_parameter("Relative damping",
+                      relative_damping,
+                      "Rate at which the motion of a node against its family dies out, >= 0 [1/s]; rigid "
+                      "motions are not damped",
+                      Double());
+    prm.leave_subsection();
+  }
+
+  void SolverParameters::check() const
+  {
+    const auto check_range = [](const bool fits, const char *parameter, const char *allowed) {
+      if (!fits)
+        throw InputError("the value is out of range")
+          .parameter(std::string("Solver/") + parameter)
+          .allowed(allowed);
+    };
+    check_range(
+      !is_dynamic() || (end_time > 0 && std::isfinite(end_time)), "End time", "a time > 0 in dynamics");
+    check_range(time_step >= 0 && std::isfinite(time_step), "Time step", "a time > 0, or 0: chosen");
+    check_range(time_step_safety > 0 && time_step_safety <= 1, "Time step safety", "0 < safety <= 1");
+    check_range(damping >= 0 && std::isfinite(damping), "Damping", "a number >= 0");
+    check_range(
+      relative_damping >= 0 && std::isfinite(relative_damping), "Relative damping", "a number >= 0");
+    if (!(tolerance > 0 && tolerance < 1))
+      throw InputError("the tolerance is out of range")
+        .parameter("Solver/Tolerance")
+        .allowed("0 < tolerance < 1");
+  }
+
+  bool SolverParameters::assembles() const
+  {
+    return linear_solver == "direct" || linear_solver.compare(0, 8, "trilinos") == 0;
+  }
+} // namespace perideal
