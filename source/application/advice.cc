@@ -259,8 +259,7 @@ namespace perideal
         }
     warn_of_surfaces(parameters, scene, result);
     warn_of_motion(parameters, scene, result);
-    if (consistent && (parameters.loads.displacement_treatment == "layer" ||
-                       parameters.loads.displacement_treatment == "reference"))
+    if (consistent && parameters.loads.holds_layer())
       result.push_back("held nodes take from the consistent form the accuracy that face values have");
     if (scene.ghosts)
       {

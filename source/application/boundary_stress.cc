@@ -90,7 +90,9 @@ namespace perideal
     if (!scene.gradient)
       own_graph = std::make_unique<const CellGraph<dim>>(*scene.mesh, *scene.nodes);
     const CellGraph<dim> &graph = scene.gradient ? scene.gradient->graph() : *own_graph;
-    const Held held = parameters.loads.displacement_treatment == "layer" ? Held::at_nodes : Held::at_faces;
+    const Held            held  = parameters.loads.displacement_treatment == DisplacementTreatment::layer ?
+                                    Held::at_nodes :
+                                    Held::at_faces;
     const SurfaceRecovery<dim> recovery(
       *scene.mesh, graph, scene.solids, scene.loads, scene.condition_boundaries, held);
     Json result = Json::object();

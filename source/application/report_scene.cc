@@ -136,7 +136,7 @@ namespace perideal
       }
     if (alone)
       result["halo exchange (one rank)"] = 1;
-    if (parameters.loads.displacement_treatment != "mirror" && !scene.surface_nodes)
+    if (!parameters.loads.has_mirror() && !scene.surface_nodes)
       result["fictitious nodes (no mirror)"] = 1;
     if (parameters.model.model == "bond based" ||
         (parameters.model.is_tensor_involved() && !parameters.model.is_consistent()))
@@ -167,7 +167,7 @@ namespace perideal
         << " had negative deviatoric weights\n";
     if (scene.family_stiffness)
       out << "stiffness   " << describe_stiffness<dim>(*scene.family_stiffness) << " by whole families\n";
-    out << "boundaries  displacement by " << parameters.loads.displacement_treatment;
+    out << "boundaries  displacement by " << name_of(parameters.loads.displacement_treatment);
     if (parameters.loads.layers > 1)
       out << ", " << parameters.loads.layers << " layers of cells";
     if (scene.mirror->n_fictitious() > 0)
@@ -175,7 +175,7 @@ namespace perideal
     if (scene.surface_nodes)
       out << " (" << grouped(scene.unknowns().n_global - scene.nodes->n_global) << ')';
     if (parameters.loads.has_transfer())
-      out << ", tractions by " << parameters.loads.traction_treatment;
+      out << ", tractions by " << name_of(parameters.loads.traction_treatment);
     if (scene.ghosts)
       out << ", tractions as well";
     if (!scene.null_space.empty())

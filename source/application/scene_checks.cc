@@ -37,21 +37,24 @@ namespace perideal
     check_symmetry(material.body);
     for (const auto &group : material.groups)
       check_symmetry(group.second);
-    const bool   consistent = model.is_consistent();
-    std::string &treatment  = loads.displacement_treatment;
-    if (treatment == "automatic")
-      treatment = consistent ? "face value" : loads.has_taylor_extension() ? "taylor ghosts" : "layer";
-    if (treatment == "face value" && !consistent)
+    const bool             consistent = model.is_consistent();
+    DisplacementTreatment &treatment  = loads.displacement_treatment;
+    using Displacement                = DisplacementTreatment;
+    if (treatment == Displacement::automatic)
+      treatment = consistent                   ? Displacement::face_value :
+                  loads.has_taylor_extension() ? Displacement::taylor_ghosts :
+                                                 Displacement::layer;
+    if (treatment == Displacement::face_value && !consistent)
       throw InputError("only the consistent form reads values at faces")
         .parameter("Boundary conditions/Displacement treatment")
-        .given(treatment)
+        .given(name_of(treatment))
         .allowed("automatic | layer | reference | mirror for this model")
         .hint("or set Material/Form = consistent");
-    if (loads.layers > 1 && treatment != "layer" && treatment != "reference")
+    if (loads.layers > 1 && !loads.holds_layer())
       throw InputError("this treatment holds no nodes, of which there could be more layers")
         .parameter("Boundary conditions/Layers")
         .given(std::to_string(loads.layers))
-        .allowed("1 for Displacement treatment = " + treatment)
+        .allowed("1 for Displacement treatment = " + name_of(treatment))
         .hint("set Boundary conditions/Displacement treatment = layer");
     // The consistent form leaves the choice to the mesh.
     if (nodes.horizon_shape == "automatic" && !consistent)
@@ -67,15 +70,15 @@ namespace perideal
         .parameter("Quadrature/Scheme")
         .given(quadrature.scheme)
         .allowed("one point; or set Material/Form = energy | paper, or another Material/Model");
-    if (treatment == "mirror" && quadrature.needs_cells())
+    if (loads.has_mirror() && quadrature.needs_cells())
       throw InputError("mirrored nodes have no cells, of which this scheme counts the parts")
         .parameter("Quadrature/Scheme")
         .given(quadrature.scheme)
         .allowed("one point | cubic cell | partial volume with Displacement treatment = mirror");
-    if (treatment == "mirror" && consistent)
+    if (loads.has_mirror() && consistent)
       throw InputError("mirrored nodes have no cells, which the consistent form needs")
         .parameter("Boundary conditions/Displacement treatment")
-        .given(treatment)
+        .given(name_of(treatment))
         .allowed("automatic | face value | layer | reference for the consistent form");
     check_quadrature();
     resolve_tractions();
@@ -110,7 +113,7 @@ namespace perideal
         .parameter("Material/Compensation of a bond")
         .given(model.compensation_of_a_bond)
         .allowed("mean; or set Quadrature/Scheme = gauss points");
-    if (model.compensates() && loads.displacement_treatment == "mirror")
+    if (model.compensates() && loads.has_mirror())
       throw InputError("bonds to mirrored nodes are not missing")
         .parameter("Material/Boundary compensation")
         .given(model.boundary_compensation)
@@ -133,24 +136,26 @@ namespace perideal
       complain("not Material/Model = " + model.model);
     if (solver.is_dynamic() || solver.is_nonlinear_static())
       complain("not Solver/Name = " + solver.name);
-    if (loads.displacement_treatment == "mirror")
+    if (loads.has_mirror())
       complain("and mirrored nodes have no cells");
   }
 
   void SceneParameters::resolve_tractions()
   {
-    std::string &treatment  = loads.traction_treatment;
-    const bool   consistent = model.is_consistent();
-    const auto   complain   = [&](const std::string &problem, const std::string &allowed) {
+    TractionTreatment &treatment  = loads.traction_treatment;
+    const bool         consistent = model.is_consistent();
+    const auto         complain   = [&](const std::string &problem, const std::string &allowed) {
       throw InputError(problem)
         .parameter("Boundary conditions/Traction treatment")
-        .given(treatment)
+        .given(name_of(treatment))
         .allowed(allowed);
     };
-    if (consistent && treatment != "automatic")
-      complain("the consistent form takes tractions at faces", "automatic for this form");
-    if (treatment == "automatic")
-      treatment = consistent ? "face" : "layer";
+    if (consistent && treatment != TractionTreatment::automatic && treatment != TractionTreatment::face_value)
+      complain("the consistent form takes tractions at faces", "automatic | face value for this form");
+    if (!consistent && treatment == TractionTreatment::face_value)
+      complain("only the consistent form takes tractions at faces", "automatic | layer for this model");
+    if (treatment == TractionTreatment::automatic)
+      treatment = consistent ? TractionTreatment::face_value : TractionTreatment::layer;
     if (loads.has_line_to_point() && (model.model != "bond based" || dimension != 3))
       complain("the closed form is that of bond-based peridynamics in 3-D",
                "automatic | layer | taylor ghosts | transfer for this scene");
@@ -195,11 +200,11 @@ namespace perideal
         .parameter("Material/Form")
         .given(model.form)
         .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in dynamics");
-    const std::string &treatment = loads.displacement_treatment;
-    if (treatment != "automatic" && treatment != "layer")
+    const DisplacementTreatment treatment = loads.displacement_treatment;
+    if (treatment != DisplacementTreatment::automatic && treatment != DisplacementTreatment::layer)
       throw InputError("dynamics hold the nodes at a boundary")
         .parameter("Boundary conditions/Displacement treatment")
-        .given(treatment)
+        .given(name_of(treatment))
         .allowed("automatic | layer in dynamics");
     if (comparison.fem || comparison.reference)
       throw InputError("the finite elements that dynamics would be compared with are static")
@@ -252,12 +257,13 @@ namespace perideal
         .parameter("Material/Form")
         .given(model.form)
         .allowed("automatic | " + join_choices(model.forms_of_motion()) + " in " + method);
-    const std::string &treatment = loads.displacement_treatment;
-    const bool         at_faces  = treatment == "face value" && model.is_consistent();
-    if (treatment != "automatic" && treatment != "layer" && !at_faces && !loads.has_surface_nodes())
+    const DisplacementTreatment treatment = loads.displacement_treatment;
+    const bool at_faces = treatment == DisplacementTreatment::face_value && model.is_consistent();
+    if (treatment != DisplacementTreatment::automatic && treatment != DisplacementTreatment::layer &&
+        !at_faces && !loads.has_surface_nodes())
       throw InputError(method + " holds nodes")
         .parameter("Boundary conditions/Displacement treatment")
-        .given(treatment)
+        .given(name_of(treatment))
         .allowed("automatic | layer | surface nodes in " + method);
     check_no_motion();
     for (const std::string &field : field_names())

@@ -167,7 +167,7 @@ namespace perideal
         .parameter("Comparison/Reference refinements")
         .allowed("0 to 4 with a Reference mesh");
     if (!comparison.reference_mesh.empty() && !comparison.reference &&
-        loads.displacement_treatment != "reference")
+        loads.displacement_treatment != DisplacementTreatment::reference)
       throw InputError("a mesh is given for a reference that is not asked for")
         .parameter("Comparison/Reference mesh")
         .hint("set Comparison/Reference = true, or remove it");

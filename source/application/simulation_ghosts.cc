@@ -19,7 +19,7 @@ namespace perideal
     if (scene.mesh->material_ids.size() > 1)
       throw InputError("what ghosts do is known in bodies of one material")
         .parameter("Boundary conditions/Traction treatment")
-        .given(parameters.loads.traction_treatment)
+        .given(name_of(parameters.loads.traction_treatment))
         .allowed("automatic | layer for several cell groups");
     const Timings::Scope part(timings, "setup: ghosts");
     scene.ghosts =

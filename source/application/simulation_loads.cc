@@ -83,7 +83,7 @@ namespace perideal
                       solid.young_modulus,
                       solid.poisson_ratio};
             },
-            loads.traction_treatment == "printed line to point",
+            loads.traction_treatment == TractionTreatment::published_line_to_point,
             force);
         }
   }
@@ -96,7 +96,7 @@ namespace perideal
     if (scene.face_values && !parameters.solver.is_nonlinear_static())
       scene.face_values->set_time(scene.loads, time);
     apply_forces(time);
-    if (parameters.loads.displacement_treatment == "reference")
+    if (parameters.loads.displacement_treatment == DisplacementTreatment::reference)
       {
         // The reference belongs to the final loads; linear scenes scale.
         NodalField<dim> values = scene.comparisons.at("reference");
@@ -140,9 +140,9 @@ namespace perideal
     NodalVector residual;
     scene.system->initialize(residual);
     scene.system->residual(residual, external_force, displacement);
-    // What bonds, ghosts and the printed transfer make of tractions balances roughly; the tractions must.
+    // What bonds, ghosts and the published transfer make of tractions balances roughly; the tractions must.
     const double share =
-      parameters.loads.act_in_depth() && parameters.loads.traction_treatment != "transfer" ?
+      parameters.loads.act_in_depth() && parameters.loads.traction_treatment != TractionTreatment::transfer ?
         scene.null_space.share_in(forces_on_body(), communicator) :
         scene.null_space.share_in(residual);
     if (share > 1e-6)

@@ -61,8 +61,7 @@ namespace perideal
   template <int dim>
   bool Simulation<dim>::by_nodes() const
   {
-    return parameters.loads.displacement_treatment == "layer" ||
-           parameters.loads.displacement_treatment == "reference" || parameters.loads.has_surface_nodes();
+    return parameters.loads.holds_layer() || parameters.loads.has_surface_nodes();
   }
 
   template <int dim>
@@ -90,7 +89,7 @@ namespace perideal
     scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
     if (parameters.loads.act_in_depth() || parameters.model.boundary_compensation == "closed form")
       scene.surface = gather_faces(scene.faces, communicator);
-    if (parameters.loads.displacement_treatment == "mirror")
+    if (parameters.loads.has_mirror())
       {
         scene.mirror = std::make_shared<MirrorLayer<dim>>(
           *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
@@ -106,8 +105,8 @@ namespace perideal
       }
     else
       {
-        const bool at_faces = parameters.loads.displacement_treatment == "face value" ||
-                              parameters.loads.displacement_treatment == "taylor ghosts";
+        const bool at_faces = parameters.loads.displacement_treatment == DisplacementTreatment::face_value ||
+                              parameters.loads.displacement_treatment == DisplacementTreatment::taylor_ghosts;
         scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
         scene.held   = parameters.loads.layers > 1 ?
                          DirichletNodes<dim>(*scene.mesh,
@@ -241,7 +240,7 @@ namespace perideal
     const auto free = motions.free_motions(communicator);
     if (free.empty())
       return;
-    if (parameters.loads.rigid_body_motions == "error")
+    if (parameters.loads.rigid_body_motions == FreeMotions::error)
       throw InputError("the conditions leave a rigid-body motion free: " +
                        RigidBodyMotions<dim>::describe(free))
         .parameter("Boundary conditions")
@@ -258,7 +257,8 @@ namespace perideal
   template <int dim>
   void Simulation<dim>::prepare_comparisons()
   {
-    if (parameters.comparison.reference || parameters.loads.displacement_treatment == "reference")
+    if (parameters.comparison.reference ||
+        parameters.loads.displacement_treatment == DisplacementTreatment::reference)
       {
         const std::string &file = parameters.comparison.reference_mesh;
         screen << "reference   Q2 finite elements, " << parameters.comparison.reference_refinements

@@ -3,7 +3,6 @@
 #include <perideal/application/scene_parameters.h>
 
 // SceneParameters: treatments of boundary conditions that go together, and with the scene.
-#include <array>
 #include <map>
 #include <string>
 
@@ -11,24 +10,25 @@ namespace perideal
 {
   void SceneParameters::resolve_treatment()
   {
-    if (loads.treatment == "automatic")
+    if (loads.treatment == Treatment::automatic)
       return;
     if (model.is_consistent())
       throw InputError("the consistent form takes its boundary conditions at faces")
         .parameter("Boundary conditions/Treatment")
-        .given(loads.treatment)
+        .given(name_of(loads.treatment))
         .allowed("automatic for this form; or set Material/Form to another one");
     // What displacements are given by, and tractions.
-    const std::map<std::string, std::array<const char *, 2>> treatments = {
-      {"layer", {{"layer", "layer"}}},
-      {"printed", {{"surface nodes", "printed transfer"}}},
-      {"balanced", {{"surface nodes", "transfer"}}},
-      {"taylor ghosts", {{"taylor ghosts", "taylor ghosts"}}}};
-    const auto &chosen = treatments.at(loads.treatment);
-    if (loads.displacement_treatment == "automatic")
-      loads.displacement_treatment = chosen[0];
-    if (loads.traction_treatment == "automatic")
-      loads.traction_treatment = chosen[1];
+    using Pair                                 = std::pair<DisplacementTreatment, TractionTreatment>;
+    const std::map<Treatment, Pair> treatments = {
+      {Treatment::layer, {DisplacementTreatment::layer, TractionTreatment::layer}},
+      {Treatment::published, {DisplacementTreatment::surface_nodes, TractionTreatment::published_transfer}},
+      {Treatment::balanced, {DisplacementTreatment::surface_nodes, TractionTreatment::transfer}},
+      {Treatment::taylor_ghosts, {DisplacementTreatment::taylor_ghosts, TractionTreatment::taylor_ghosts}}};
+    const Pair &chosen = treatments.at(loads.treatment);
+    if (loads.displacement_treatment == DisplacementTreatment::automatic)
+      loads.displacement_treatment = chosen.first;
+    if (loads.traction_treatment == TractionTreatment::automatic)
+      loads.traction_treatment = chosen.second;
   }
 
   void SceneParameters::check_surface_nodes() const
@@ -38,7 +38,7 @@ namespace perideal
     const auto complain = [this](const std::string &problem, const std::string &allowed) {
       throw InputError(problem)
         .parameter("Boundary conditions/Displacement treatment")
-        .given(loads.displacement_treatment)
+        .given(name_of(loads.displacement_treatment))
         .allowed(allowed);
     };
     const std::string others = "automatic | layer | reference | mirror";
@@ -65,18 +65,18 @@ namespace perideal
 
   void SceneParameters::check_ghosts() const
   {
-    const bool of_displacements = loads.displacement_treatment == "taylor ghosts";
+    const bool of_displacements = loads.displacement_treatment == DisplacementTreatment::taylor_ghosts;
     if (!of_displacements && !loads.has_taylor_extension())
       return;
     const auto complain = [this](const std::string &problem, const std::string &hint) {
       throw InputError(problem)
         .parameter("Boundary conditions/Traction treatment")
-        .given(loads.traction_treatment)
+        .given(name_of(loads.traction_treatment))
         .hint(hint);
     };
     if (!of_displacements || !loads.has_taylor_extension())
       complain("ghosts meet displacements and tractions together, and displacements have the treatment " +
-                 loads.displacement_treatment,
+                 name_of(loads.displacement_treatment),
                "set Boundary conditions/Treatment = taylor ghosts instead of either");
     if (solver.name != "static")
       complain("what ghosts do follows from linear statics, not Solver/Name = " + solver.name,

@@ -114,9 +114,8 @@ namespace perideal
       "Treatment",
       treatment,
       "What the next two are where they are automatic, for bonds between nodes: layer: layer and layer; "
-      "printed: surface nodes and printed transfer, as published for peridynamics with boundary conditions; "
-      "balanced: surface nodes and transfer; taylor ghosts: these for both; automatic: what suits the model",
-      dealii::Patterns::Selection("automatic|layer|printed|balanced|taylor ghosts"));
+      "published: surface nodes and published transfer, as in peridynamics with boundary conditions; "
+      "balanced: surface nodes and transfer; taylor ghosts: these for both; automatic: what suits the model");
     prm.add_parameter(
       "Displacement treatment",
       displacement_treatment,
@@ -128,8 +127,7 @@ namespace perideal
       "taylor ghosts: the far ends of bonds that are missing behind the surface move by Taylor polynomials "
       "that "
       "meet the boundary's values (with the same treatment of tractions); "
-      "automatic: face value for the consistent form, taylor ghosts with such tractions, else layer",
-      dealii::Patterns::Selection("automatic|face value|layer|reference|mirror|surface nodes|taylor ghosts"));
+      "automatic: face value for the consistent form, taylor ghosts with such tractions, else layer");
     prm.add_parameter(
       "Traction treatment",
       traction_treatment,
@@ -139,20 +137,19 @@ namespace perideal
       "ends move by Taylor polynomials that meet the tractions (statics, not the consistent form, with the "
       "same treatment of displacements); transfer: spread over the nodes within a horizon, with force and "
       "moment "
-      "of each face; printed transfer: as published, 1.386 times too large; line to point: the closed form "
+      "of each face; published transfer: as published, 1.386 times too large; line to point: the closed form "
       "of "
-      "bond-based peridynamics in 3-D for tractions along the normal; printed line to point: as published, "
+      "bond-based peridynamics in 3-D for tractions along the normal; published line to point: as published, "
       "with "
-      "a third of the force lost; automatic: at the faces of the consistent form, else layer",
-      dealii::Patterns::Selection(
-        "automatic|layer|taylor ghosts|line to point|printed line to point|transfer|printed transfer"));
+      "a third of the force lost; face value: at the faces of the consistent form; automatic: that for the "
+      "consistent form, else layer");
     prm.add_parameter("Transfer chi",
                       transfer_chi,
-                      "Of the printed transfer: its factor is chi/(chi-1), not 0 or 1 [-]",
+                      "Of the published transfer: its factor is chi/(chi-1), not 0 or 1 [-]",
                       dealii::Patterns::Double());
     prm.add_parameter("Transfer lambda",
                       transfer_lambda,
-                      "Of the printed transfer: what the places of held faces do, in linear statics "
+                      "Of the published transfer: what the places of held faces do, in linear statics "
                       "[N/m^11]; 0: nothing. The unit makes results depend on the unit of length",
                       dealii::Patterns::Double());
     prm.add_parameter(
@@ -167,8 +164,7 @@ namespace perideal
       "Rigid body motions",
       rigid_body_motions,
       "What to do when the conditions leave a rigid-body motion free: error: stop; remove: find "
-      "the solution whose mean translation and rotation are zero (the loads must balance)",
-      dealii::Patterns::Selection("error|remove"));
+      "the solution whose mean translation and rotation are zero (the loads must balance)");
     conditions = named_texts<BoundaryConditionText>(file, "Boundary conditions");
     for (BoundaryConditionText &condition : conditions)
       {

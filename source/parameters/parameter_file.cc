@@ -7,7 +7,9 @@
 #include <boost/property_tree/json_parser.hpp>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 namespace perideal
@@ -132,6 +134,17 @@ namespace perideal
       return dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
     }
 
+    /// What a value is called now that had another name in the past.
+    std::string present_value(const ParameterFile::Assignment &assignment)
+    {
+      static const std::map<std::array<std::string, 2>, std::string> past = {
+        {{{"Boundary conditions/Treatment", "printed"}}, "published"},
+        {{{"Boundary conditions/Traction treatment", "printed transfer"}}, "published transfer"},
+        {{{"Boundary conditions/Traction treatment", "printed line to point"}}, "published line to point"}};
+      const auto found = past.find({{assignment.path(), assignment.value}});
+      return found == past.end() ? assignment.value : found->second;
+    }
+
     /// Sets one value; false when it does not match the pattern.
     bool set_value(dealii::ParameterHandler &prm, const ParameterFile::Assignment &assignment)
     {
@@ -141,7 +154,7 @@ namespace perideal
       bool matches = true;
       try
         {
-          prm.set(assignment.name, assignment.value);
+          prm.set(assignment.name, present_value(assignment));
         }
       catch (const dealii::ExceptionBase &)
         {

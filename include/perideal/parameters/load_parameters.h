@@ -2,6 +2,7 @@
 #ifndef perideal_parameters_load_parameters_h
 #define perideal_parameters_load_parameters_h
 
+#include <perideal/parameters/choice.h>
 #include <perideal/parameters/space_time_function.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -13,6 +14,80 @@
 namespace perideal
 {
   class ParameterFile;
+
+  /// What the treatments of displacements and tractions are where these are automatic.
+  enum class Treatment
+  {
+    automatic,
+    layer,
+    published,
+    balanced,
+    taylor_ghosts
+  };
+
+  template <>
+  struct ChoiceNames<Treatment>
+  {
+    static constexpr const char *list[] = {"automatic", "layer", "published", "balanced", "taylor ghosts"};
+  };
+
+  /// How prescribed displacements reach the peridynamic nodes.
+  enum class DisplacementTreatment
+  {
+    automatic,
+    face_value,
+    layer,
+    reference,
+    mirror,
+    surface_nodes,
+    taylor_ghosts
+  };
+
+  template <>
+  struct ChoiceNames<DisplacementTreatment>
+  {
+    static constexpr const char *list[] = {
+      "automatic", "face value", "layer", "reference", "mirror", "surface nodes", "taylor ghosts"};
+  };
+
+  /// How tractions and pressures reach the nodes.
+  enum class TractionTreatment
+  {
+    automatic,
+    face_value,
+    layer,
+    taylor_ghosts,
+    line_to_point,
+    published_line_to_point,
+    transfer,
+    published_transfer
+  };
+
+  template <>
+  struct ChoiceNames<TractionTreatment>
+  {
+    static constexpr const char *list[] = {"automatic",
+                                           "face value",
+                                           "layer",
+                                           "taylor ghosts",
+                                           "line to point",
+                                           "published line to point",
+                                           "transfer",
+                                           "published transfer"};
+  };
+
+  /// What is done about rigid-body motions that no condition holds.
+  enum class FreeMotions
+  {
+    error,
+    remove
+  };
+
+  template <>
+  struct ChoiceNames<FreeMotions>
+  {
+    static constexpr const char *list[] = {"error", "remove"};
+  };
 
   /// Expressions of one subsection of "Boundary conditions"; an empty one is free.
   struct BoundaryConditionText
@@ -45,21 +120,14 @@ namespace perideal
   /// Sections "Boundary conditions", "Point loads" and "Body force", as text.
   struct LoadParameters
   {
-    /// What the next two are where they are automatic: automatic | layer | printed | balanced |
-    /// taylor ghosts.
-    std::string treatment = "automatic";
-    /// How prescribed displacements reach the peridynamic nodes: automatic | face value |
-    /// layer | reference | mirror | surface nodes | taylor ghosts.
-    std::string displacement_treatment = "automatic";
-    /// How tractions reach the nodes: automatic | layer | taylor ghosts | line to point |
-    /// printed line to point | transfer | printed transfer.
-    std::string traction_treatment = "automatic";
-    /// Of the printed transfer: chi of PDBC (2.14) [-], lambda of (3.15) [N/m^11].
+    Treatment             treatment              = Treatment::automatic;
+    DisplacementTreatment displacement_treatment = DisplacementTreatment::automatic;
+    TractionTreatment     traction_treatment     = TractionTreatment::automatic;
+    /// Of the published transfer: chi of PDBC (2.14) [-], lambda of (3.15) [N/m^11].
     double transfer_chi = 3.59, transfer_lambda = 1.;
     /// How many layers of cells under a boundary are held, where nodes are.
-    unsigned int layers = 1;
-    /// What to do about rigid-body motions that no condition holds: error | remove.
-    std::string                        rigid_body_motions = "error";
+    unsigned int                       layers             = 1;
+    FreeMotions                        rigid_body_motions = FreeMotions::error;
     std::vector<BoundaryConditionText> conditions;
     std::vector<PointLoadText>         point_loads;
     /// Force per volume by component [N/m^3].
@@ -67,13 +135,27 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
-    bool has_taylor_extension() const { return traction_treatment == "taylor ghosts"; }
-    bool has_surface_nodes() const { return displacement_treatment == "surface nodes"; }
-    bool has_published_transfer() const { return traction_treatment == "printed transfer"; }
-    bool has_transfer() const { return traction_treatment == "transfer" || has_published_transfer(); }
+    bool has_taylor_extension() const { return traction_treatment == TractionTreatment::taylor_ghosts; }
+    bool has_surface_nodes() const { return displacement_treatment == DisplacementTreatment::surface_nodes; }
+    bool has_mirror() const { return displacement_treatment == DisplacementTreatment::mirror; }
+    bool has_published_transfer() const
+    {
+      return traction_treatment == TractionTreatment::published_transfer;
+    }
+    bool has_transfer() const
+    {
+      return traction_treatment == TractionTreatment::transfer || has_published_transfer();
+    }
     bool has_line_to_point() const
     {
-      return traction_treatment == "line to point" || traction_treatment == "printed line to point";
+      return traction_treatment == TractionTreatment::line_to_point ||
+             traction_treatment == TractionTreatment::published_line_to_point;
+    }
+    /// Whether nodes of the cells at the boundary take prescribed values.
+    bool holds_layer() const
+    {
+      return displacement_treatment == DisplacementTreatment::layer ||
+             displacement_treatment == DisplacementTreatment::reference;
     }
     /// Whether tractions act on the nodes that a face has within a horizon, and not on its cell's.
     bool act_in_depth() const { return has_transfer() || has_taylor_extension() || has_line_to_point(); }
