@@ -78,8 +78,12 @@ def command_line(case, ranks, program, mpirun):
 
 def execute(command, folder, seconds):
     """(exit status, stdout, stderr); the status is None when the time is over."""
+    # Runs side by side must not share the folder of Open MPI's sessions.
+    temporary = folder / "temporary"
+    temporary.mkdir()
     process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, env={**ENVIRONMENT, **os.environ}, start_new_session=True)
+                               stderr=subprocess.PIPE, start_new_session=True,
+                               env={**ENVIRONMENT, **os.environ, "TMPDIR": str(temporary)})
     try:
         out, err = process.communicate(timeout=seconds)
         status = process.returncode

@@ -23,16 +23,30 @@ def run(program, *arguments, folder):
     return process.returncode, process.stdout.decode(), process.stderr.decode()
 
 
+def without_surroundings(err):
+    """What is left of stderr without what MPI and hwloc say about the machine: framed notes and [bracketed] lines."""
+    err = re.sub(r"^([-*])\1{19,}\n.*?^\1{20,}\n?", "", err, flags=re.DOTALL | re.MULTILINE)
+    return "\n".join(line for line in err.splitlines() if line.strip() and not line.startswith("["))
+
+
 def deviations(program, folder, arguments, words):
-    """What differs from: exit status 0, all words on stdout, stderr empty, no file written; as texts."""
+    """What differs from: exit status 0, all words on stdout, nothing on stderr, no file written; as texts."""
     before = set(folder.rglob("*"))
     status, out, err = run(program, *arguments, folder=folder)
     found = [f"exit status {status}"] if status != 0 else []
     found += [f"does not say {word!r}" for word in words if word not in out]
     found += [f"wrote {path.name}" for path in sorted(set(folder.rglob("*")) - before)]
-    if err:
-        found.append(f"stderr: {err.strip()}")
+    if without_surroundings(err):
+        found.append(f"stderr: {without_surroundings(err)}")
     return found
+
+
+# What a machine without /sys, or of a peculiar network, makes MPI print; then an error of the program.
+FRAME = "-" * 74
+SURROUNDINGS = ("[hwloc/linux] failed to find sysfs cpu topology directory, aborting linux discovery.\n"
+                f"{FRAME}\nWARNING: There is no network.\n\n  Local host: here\n{FRAME}\n"
+                "[here:00042] 1 more process has sent a help message\n")
+COMPLAINT = "perideal: input error: no such file"
 
 
 def listed_scene(program, folder):
@@ -104,6 +118,9 @@ def main():
             print(f"{'DEVIATES' if found else 'ok':8}  {' '.join(options)}")
             for deviation in found:
                 print(f"    {deviation}")
+    if without_surroundings(SURROUNDINGS) or without_surroundings(SURROUNDINGS + COMPLAINT) != COMPLAINT:
+        n_deviating += 1
+        print("what MPI prints about its surroundings is not told from what the program says")
     if n_groups != 1:
         n_deviating += 1
         print(f"the list of parameters has {n_groups} materials of named groups, not 1")
