@@ -93,9 +93,8 @@ namespace perideal
     const Held            held  = parameters.loads.displacement_treatment == DisplacementTreatment::layer ?
                                     Held::at_nodes :
                                     Held::at_faces;
-    const SurfaceRecovery<dim> recovery(
-      *scene.mesh, graph, scene.solids, scene.loads, scene.condition_boundaries, held);
-    Json result = Json::object();
+    const SurfaceRecovery<dim> recovery(*scene.mesh, graph, scene.solids, scene.loads, held);
+    Json                       result = Json::object();
     for (const std::string &name : parameters.boundary_stress)
       {
         const auto                       boundary = scene.mesh->boundary_id(name, "Output/Boundary stress");

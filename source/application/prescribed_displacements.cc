@@ -4,8 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace perideal
 {
   namespace
@@ -41,12 +39,11 @@ namespace perideal
     const auto       &conditions = scene.loads.conditions;
     WeightedSums<dim> total(conditions.size());
     for (std::size_t k = 0; k < conditions.size(); ++k)
-      for (const BoundaryFace<dim> &face : scene.faces)
-        if (const auto &ids = scene.condition_boundaries[k];
-            std::count(ids.begin(), ids.end(), face.boundary) > 0)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &prescribed = conditions[k].displacement[d]; prescribed.is_present())
-              total.add(k, d, face.area, prescribed.value(face.centre, time));
+      visit_faces(conditions[k], scene.faces, [&](const BoundaryFace<dim> &face) {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto &prescribed = conditions[k].displacement[d]; prescribed.is_present())
+            total.add(k, d, face.area, prescribed.value(face.centre, time));
+      });
     for (const auto &entry : scene.held.entries())
       if (conditions[entry.condition].velocity[entry.component].is_present())
         total.add(

@@ -204,8 +204,7 @@ namespace perideal
     const unsigned int n_steps = std::ceil(parameters.solver.end_time / time_step - 1e-6);
     const StopRequest  stop;
     scene.force->initialize(external_force);
-    check_finite(
-      scene.faces, scene.loads, scene.condition_boundaries, parameters.solver.end_time, communicator);
+    check_finite(scene.faces, scene.loads, parameters.solver.end_time, communicator);
     scene.held.check_finite(scene.loads, parameters.solver.end_time, communicator);
     apply_forces(dynamics.time());
     const bool        loads_change = scene.loads.forces_depend_on_time();

@@ -6,8 +6,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 // Simulation: bonds that are missing behind the surface, and the stiffness of families that lack none.
 
 namespace perideal
@@ -29,7 +27,6 @@ namespace perideal
                                              scene.faces,
                                              scene.surface,
                                              scene.loads,
-                                             scene.condition_boundaries,
                                              solid_of_model()(*scene.mesh->material_ids.begin()).stiffness());
     scene.bonds = scene.ghosts;
   }
@@ -63,8 +60,7 @@ namespace perideal
     result.reactions.resize(scene.loads.conditions.size());
     for (const auto &seen : scene.ghosts->face_tractions(displacement, scene.loads, time))
       for (std::size_t k = 0; k < result.reactions.size(); ++k)
-        if (const auto &ids = scene.condition_boundaries[k];
-            std::count(ids.begin(), ids.end(), seen.boundary) > 0)
+        if (scene.loads.conditions[k].acts_on(seen.boundary))
           for (unsigned int d = 0; d < dim; ++d)
             if (scene.loads.conditions[k].holds(d))
               result.reactions[k][d] += seen.point.area * seen.traction[d];

@@ -10,8 +10,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 // Simulation: loads and prescribed displacements.
 
 namespace perideal
@@ -26,12 +24,9 @@ namespace perideal
         scene.transfer = std::make_shared<BalancedTransfer<dim>>(std::move(functions));
         return;
       }
-    scene.published_transfer = std::make_shared<PublishedTransfer<dim>>(std::move(functions),
-                                                                        scene.loads,
-                                                                        scene.condition_boundaries,
-                                                                        parameters.loads.transfer_chi,
-                                                                        parameters.loads.transfer_lambda);
-    scene.transfer           = scene.published_transfer;
+    scene.published_transfer = std::make_shared<PublishedTransfer<dim>>(
+      std::move(functions), scene.loads, parameters.loads.transfer_chi, parameters.loads.transfer_lambda);
+    scene.transfer = scene.published_transfer;
     if (!scene.published_transfer->springs().empty())
       scene.bonds = std::make_shared<NodalSprings<dim>>(scene.bonds, scene.published_transfer->springs());
   }
@@ -54,17 +49,15 @@ namespace perideal
     // No external force acts on nodes that are not those of cells.
     force = 0.;
     if (parameters.model.is_consistent())
-      compute_forces_at_faces(
-        *scene.nodes, scene.faces, *scene.gradient, given, scene.condition_boundaries, time, force);
+      compute_forces_at_faces(*scene.nodes, scene.faces, *scene.gradient, given, time, force);
     else
       compute_nodal_forces(*scene.nodes,
                            loads.act_in_depth() ? std::vector<BoundaryFace<dim>>() : scene.faces,
                            given,
-                           scene.condition_boundaries,
                            time,
                            force);
     if (scene.transfer)
-      scene.transfer->add_tractions(given, scene.condition_boundaries, time, force);
+      scene.transfer->add_tractions(given, time, force);
     if constexpr (dim == 3)
       if (loads.has_line_to_point())
         {
@@ -73,7 +66,6 @@ namespace perideal
             *scene.nodes,
             scene.surface,
             given,
-            scene.condition_boundaries,
             time,
             [&](const LocalIndex i) -> LineToPoint {
               const auto   solid   = solid_of(scene.nodes->material[i]).isotropic();
@@ -112,14 +104,11 @@ namespace perideal
   std::vector<typename NullSpace<dim>::Force> Simulation<dim>::forces_on_body() const
   {
     std::vector<typename NullSpace<dim>::Force> result;
-    for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
-      if (scene.loads.conditions[k].prescribes_traction())
-        for (const BoundaryFace<dim> &face : scene.faces)
-          if (const auto &names = scene.condition_boundaries[k];
-              std::count(names.begin(), names.end(), face.boundary) > 0)
-            result.emplace_back(
-              face.centre,
-              face.area * Loads<dim>::traction(scene.loads.conditions[k], face.centre, face.normal, 1.));
+    visit_loaded_faces(
+      scene.loads, scene.faces, [&](const BoundaryCondition<dim> &condition, const BoundaryFace<dim> &face) {
+        result.emplace_back(face.centre,
+                            face.area * Loads<dim>::traction(condition, face.centre, face.normal, 1.));
+      });
     for (LocalIndex i = 0; i < scene.nodes->size(); ++i)
       result.emplace_back(scene.nodes->position[i],
                           scene.nodes->volume[i] * scene.loads.body_force_at(scene.nodes->position[i], 1.));
@@ -134,7 +123,7 @@ namespace perideal
   {
     scene.system->initialize(displacement);
     scene.system->initialize(external_force);
-    check_finite(scene.faces, scene.loads, scene.condition_boundaries, 1., communicator);
+    check_finite(scene.faces, scene.loads, 1., communicator);
     scene.held.check_finite(scene.loads, 1., communicator);
     apply_loads(1.);
     NodalVector residual;

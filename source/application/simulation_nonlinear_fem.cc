@@ -48,7 +48,7 @@ namespace perideal
       if (scene.loads.conditions[k].prescribes_displacement())
         {
           dealii::Tensor<1, dim> reaction;
-          for (const auto boundary : scene.condition_boundaries[k])
+          for (const auto boundary : scene.loads.conditions[k].boundary_ids)
             reaction += fem.reaction(boundary);
           const std::string     &name  = scene.loads.conditions[k].name;
           nlohmann::ordered_json value = nlohmann::ordered_json::array();

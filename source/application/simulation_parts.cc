@@ -27,7 +27,7 @@ namespace perideal
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
-    const DirichletNodes<dim> held(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size());
+    const DirichletNodes<dim> held(scene.faces, scene.loads, scene.nodes->size());
     const auto               &body_of_node = scene.parts->body_of_node;
     for (unsigned int body = 0; body < scene.parts->n_bodies; ++body)
       {

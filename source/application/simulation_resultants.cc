@@ -5,8 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 // Simulation: what the loads add up to, and what the nodes get of them.
 
 namespace perideal
@@ -36,21 +34,18 @@ namespace perideal
 
     /// Of one condition; @p gross sums up the sizes of the forces [N].
     template <int dim>
-    Resultant<dim> integrate(const std::vector<BoundaryFace<dim>>          &faces,
-                             const BoundaryCondition<dim>                  &condition,
-                             const std::vector<dealii::types::boundary_id> &boundaries,
-                             const double                                   time,
-                             double                                        &gross)
+    Resultant<dim> integrate(const std::vector<BoundaryFace<dim>> &faces,
+                             const BoundaryCondition<dim>         &condition,
+                             const double                          time,
+                             double                               &gross)
     {
       Resultant<dim> result;
-      for (const BoundaryFace<dim> &face : faces)
-        if (std::count(boundaries.begin(), boundaries.end(), face.boundary) > 0)
-          {
-            const auto part = integrate_traction<dim>(condition, face, time, dealii::Point<dim>());
-            result.force += part.force;
-            result.moment += part.moment;
-            gross += part.force.norm();
-          }
+      visit_faces(condition, faces, [&](const BoundaryFace<dim> &face) {
+        const auto part = integrate_traction<dim>(condition, face, time, dealii::Point<dim>());
+        result.force += part.force;
+        result.moment += part.moment;
+        gross += part.force.norm();
+      });
       return result;
     }
 
@@ -84,21 +79,16 @@ namespace perideal
   Resultant<dim> Simulation<dim>::met_by_ghosts(const std::size_t condition, const double time) const
   {
     Resultant<dim> result;
-    for (const auto &seen : scene.ghosts->face_tractions(displacement, scene.loads, time))
-      {
-        const auto is_here = [&](const std::size_t k) {
-          const auto &ids = scene.condition_boundaries[k];
-          return std::count(ids.begin(), ids.end(), seen.boundary) > 0;
-        };
-        if (!is_here(condition))
-          continue;
-        dealii::Tensor<1, dim> force = seen.point.area * seen.traction;
-        for (std::size_t k = 0; k < scene.loads.conditions.size(); ++k)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (is_here(k) && scene.loads.conditions[k].holds(d))
-              force[d] = 0.;
-        result.add(seen.point.position, force);
-      }
+    visit_faces(scene.loads.conditions[condition],
+                scene.ghosts->face_tractions(displacement, scene.loads, time),
+                [&](const auto &seen) {
+                  dealii::Tensor<1, dim> force = seen.point.area * seen.traction;
+                  for (const BoundaryCondition<dim> &other : scene.loads.conditions)
+                    for (unsigned int d = 0; d < dim; ++d)
+                      if (other.acts_on(seen.boundary) && other.holds(d))
+                        force[d] = 0.;
+                  result.add(seen.point.position, force);
+                });
     return result;
   }
 
@@ -113,9 +103,8 @@ namespace perideal
       if (const auto &condition = scene.loads.conditions[k]; condition.prescribes_traction())
         {
           double     gross   = 0;
-          const auto applied = sum_of(
-            integrate(scene.faces, condition, scene.condition_boundaries[k], time, gross), communicator);
-          gross = dealii::Utilities::MPI::sum(gross, communicator);
+          const auto applied = sum_of(integrate(scene.faces, condition, time, gross), communicator);
+          gross              = dealii::Utilities::MPI::sum(gross, communicator);
           total.force += applied.force;
           total.moment += applied.moment;
           Json &entry      = result["conditions"][condition.name];

@@ -68,9 +68,8 @@ namespace perideal
   void Simulation<dim>::make_mesh()
   {
     const Timings::Scope scope(timings, "mesh");
-    scene.mesh                 = create_mesh<dim>(parameters.mesh, communicator, context.scene_directory);
-    scene.loads                = Loads<dim>(parameters.loads);
-    scene.condition_boundaries = resolve_boundaries(*scene.mesh, scene.loads);
+    scene.mesh  = create_mesh<dim>(parameters.mesh, communicator, context.scene_directory);
+    scene.loads = resolve_boundaries(*scene.mesh, Loads<dim>(parameters.loads));
     for (const std::string &name : parameters.comparison.profiles)
       scene.mesh->boundary_id(name, "Comparison/Profiles");
     for (const std::string &name : parameters.boundary_stress)
@@ -91,17 +90,15 @@ namespace perideal
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.has_mirror())
       {
-        scene.mirror = std::make_shared<MirrorLayer<dim>>(
-          *scene.mesh, *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
-        scene.held = DirichletNodes<dim>({}, scene.loads, scene.condition_boundaries, scene.nodes->size());
+        scene.mirror =
+          std::make_shared<MirrorLayer<dim>>(*scene.mesh, *scene.nodes, scene.faces, scene.loads);
+        scene.held = DirichletNodes<dim>({}, scene.loads, scene.nodes->size());
       }
     else if (parameters.loads.has_surface_nodes())
       {
-        scene.surface_nodes = std::make_unique<SurfaceNodes<dim>>(
-          *scene.nodes, scene.faces, scene.loads, scene.condition_boundaries);
-        scene.mirror = std::make_shared<MirrorLayer<dim>>(scene.unknowns());
-        scene.held   = DirichletNodes<dim>(
-          scene.surface_nodes->faces(), scene.loads, scene.condition_boundaries, scene.unknowns().size());
+        scene.surface_nodes = std::make_unique<SurfaceNodes<dim>>(*scene.nodes, scene.faces, scene.loads);
+        scene.mirror        = std::make_shared<MirrorLayer<dim>>(scene.unknowns());
+        scene.held = DirichletNodes<dim>(scene.surface_nodes->faces(), scene.loads, scene.unknowns().size());
       }
     else
       {
@@ -109,15 +106,10 @@ namespace perideal
                               parameters.loads.displacement_treatment == DisplacementTreatment::taylor_ghosts;
         scene.mirror = std::make_shared<MirrorLayer<dim>>(*scene.nodes);
         scene.held   = parameters.loads.layers > 1 ?
-                         DirichletNodes<dim>(*scene.mesh,
-                                           *scene.nodes,
-                                           scene.faces,
-                                           scene.loads,
-                                           scene.condition_boundaries,
-                                           parameters.loads.layers) :
+                         DirichletNodes<dim>(
+                         *scene.mesh, *scene.nodes, scene.faces, scene.loads, parameters.loads.layers) :
                          DirichletNodes<dim>(at_faces ? std::vector<BoundaryFace<dim>>() : scene.faces,
                                            scene.loads,
-                                           scene.condition_boundaries,
                                            scene.nodes->size());
       }
     check_lines(*scene.mesh, *scene.nodes, parameters.comparison.lines);
@@ -143,10 +135,8 @@ namespace perideal
       *scene.mesh, *scene.nodes, [&](const dealii::types::material_id id) {
         return scene.solids.at(id).isotropic().shear_modulus();
       });
-    scene.face_values =
-      by_nodes() ?
-        std::make_shared<FaceValues<dim>>() :
-        std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads, scene.condition_boundaries);
+    scene.face_values = by_nodes() ? std::make_shared<FaceValues<dim>>() :
+                                     std::make_shared<FaceValues<dim>>(*scene.gradient, scene.loads);
   }
 
   template <int dim>
@@ -231,9 +221,7 @@ namespace perideal
       }
     RigidBodyMotions<dim>     motions(lower + 0.5 * (upper - lower), lower.distance(upper));
     const DirichletNodes<dim> on_faces =
-      !by_nodes() ?
-        DirichletNodes<dim>(scene.faces, scene.loads, scene.condition_boundaries, scene.nodes->size()) :
-        scene.held;
+      !by_nodes() ? DirichletNodes<dim>(scene.faces, scene.loads, scene.nodes->size()) : scene.held;
     for (const auto &entry : on_faces.entries())
       motions.hold(!by_nodes() ? entry.point : scene.unknowns().position[entry.node], entry.component);
 

@@ -6,8 +6,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
-
 namespace perideal
 {
   namespace
@@ -70,32 +68,26 @@ namespace perideal
 
   template <int dim>
   void
-  BalancedTransfer<dim>::add_tractions(const Loads<dim>                                           &loads,
-                                       const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                       const double                                                time,
-                                       NodalVector &force) const
+  BalancedTransfer<dim>::add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const
   {
     const auto &faces = functions.faces();
-    for (std::size_t c = 0; c < loads.conditions.size(); ++c)
-      if (loads.conditions[c].prescribes_traction())
-        for (std::size_t k = 0; k < faces.size(); ++k)
-          if (!functions.entries()[k].empty() &&
-              std::count(boundaries[c].begin(), boundaries[c].end(), faces[k].boundary) > 0)
-            {
-              const auto load = integrate_traction<dim>(loads.conditions[c], faces[k], time, faces[k].centre);
-              const auto pull = load.force / functions.node_sums()[k];
-              const auto left =
-                load.moment - dealii::cross_product_3d(carriers[k].centroid, in_space(load.force));
-              const auto turn = carriers[k].inverse_inertia * left;
-              for (const auto &[i, q] : functions.entries()[k])
-                {
-                  const auto arm =
-                    in_space<dim>(functions.positions()[i] - faces[k].centre) - carriers[k].centroid;
-                  const auto turned = dealii::cross_product_3d(turn, arm);
-                  for (int d = 0; d < dim; ++d)
-                    force.local_element(dim * i + d) += q * functions.volumes()[i] * (pull[d] + turned[d]);
-                }
-            }
+    visit_loaded_faces(
+      loads, faces, [&](const BoundaryCondition<dim> &condition, const SurfaceFace<dim> &face) {
+        const std::size_t k = &face - faces.data();
+        if (functions.entries()[k].empty())
+          return;
+        const auto load = integrate_traction<dim>(condition, face, time, face.centre);
+        const auto pull = load.force / functions.node_sums()[k];
+        const auto left = load.moment - dealii::cross_product_3d(carriers[k].centroid, in_space(load.force));
+        const auto turn = carriers[k].inverse_inertia * left;
+        for (const auto &[i, q] : functions.entries()[k])
+          {
+            const auto arm    = in_space<dim>(functions.positions()[i] - face.centre) - carriers[k].centroid;
+            const auto turned = dealii::cross_product_3d(turn, arm);
+            for (int d = 0; d < dim; ++d)
+              force.local_element(dim * i + d) += q * functions.volumes()[i] * (pull[d] + turned[d]);
+          }
+      });
   }
 
   PERIDEAL_INSTANTIATE_CLASS(BalancedTransfer)

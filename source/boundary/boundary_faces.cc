@@ -9,7 +9,6 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q1.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -77,21 +76,19 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<std::vector<dealii::types::boundary_id>> resolve_boundaries(const Mesh<dim>  &mesh,
-                                                                          const Loads<dim> &loads)
+  Loads<dim> resolve_boundaries(const Mesh<dim> &mesh, Loads<dim> loads)
   {
     const char *axes[] = {"x", "y", "z"};
     // Who holds, and who pulls, a component of a boundary.
     std::map<std::pair<dealii::types::boundary_id, int>, std::string> holder, puller;
-    std::vector<std::vector<dealii::types::boundary_id>>              result;
-    for (const BoundaryCondition<dim> &condition : loads.conditions)
+    for (BoundaryCondition<dim> &condition : loads.conditions)
       {
         const std::string section = "Boundary conditions/" + condition.name;
-        result.emplace_back();
+        condition.boundary_ids.clear();
         for (const std::string &name : condition.boundaries)
           {
             const auto id = mesh.boundary_id(name, section + "/Boundary");
-            result.back().push_back(id);
+            condition.boundary_ids.push_back(id);
             for (int d = 0; d < dim; ++d)
               {
                 const auto complain = [&](const std::string &what, const std::string &other) {
@@ -115,39 +112,37 @@ namespace perideal
           .parameter("Boundary conditions/" + puller.at(held.first))
           .given("displacement by Boundary conditions/" + held.second)
           .hint("remove one of them");
-    return result;
+    return loads;
   }
 
   template <int dim>
-  void check_finite(const std::vector<BoundaryFace<dim>>                       &faces,
-                    const Loads<dim>                                           &loads,
-                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                    const double                                                time,
-                    MPI_Comm                                                    communicator)
+  void check_finite(const std::vector<BoundaryFace<dim>> &faces,
+                    const Loads<dim>                     &loads,
+                    const double                          time,
+                    MPI_Comm                              communicator)
   {
-    for (unsigned int k = 0; k < loads.conditions.size(); ++k)
+    for (const BoundaryCondition<dim> &condition : loads.conditions)
       {
         // The faces may be on any rank; all ranks must agree on the complaint.
         const auto check = [&](const SpaceTimeFunction<dim> &function, const std::string &name) {
           unsigned int bad = 0;
           if (function.is_present())
-            for (const BoundaryFace<dim> &face : faces)
-              if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0 &&
-                  !std::isfinite(function.value(face.centre, time)))
-                ++bad;
+            visit_faces(condition, faces, [&](const BoundaryFace<dim> &face) {
+              bad += std::isfinite(function.value(face.centre, time)) ? 0 : 1;
+            });
           if (dealii::Utilities::MPI::max(bad, communicator) > 0)
             throw InputError("this formula is not a finite number somewhere on its boundary")
-              .parameter("Boundary conditions/" + loads.conditions[k].name + "/" + name)
+              .parameter("Boundary conditions/" + condition.name + "/" + name)
               .hint("look for poles and for roots and logarithms of negative numbers");
         };
         const char *axes[] = {"x", "y", "z"};
         for (int d = 0; d < dim; ++d)
           {
-            check(loads.conditions[k].displacement[d], std::string("u_") + axes[d]);
-            check(loads.conditions[k].velocity[d], std::string("v_") + axes[d]);
-            check(loads.conditions[k].traction[d], std::string("t_") + axes[d]);
+            check(condition.displacement[d], std::string("u_") + axes[d]);
+            check(condition.velocity[d], std::string("v_") + axes[d]);
+            check(condition.traction[d], std::string("t_") + axes[d]);
           }
-        check(loads.conditions[k].pressure, "Pressure");
+        check(condition.pressure, "Pressure");
       }
   }
 

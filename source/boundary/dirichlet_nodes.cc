@@ -11,15 +11,14 @@
 namespace perideal
 {
   template <int dim>
-  DirichletNodes<dim>::DirichletNodes(const std::vector<BoundaryFace<dim>>                       &faces,
-                                      const Loads<dim>                                           &loads,
-                                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                      const LocalIndex                                            n_nodes)
+  DirichletNodes<dim>::DirichletNodes(const std::vector<BoundaryFace<dim>> &faces,
+                                      const Loads<dim>                     &loads,
+                                      const LocalIndex                      n_nodes)
     : n_conditions(loads.conditions.size())
   {
     for (const BoundaryFace<dim> &face : faces)
       for (unsigned int k = 0; k < n_conditions; ++k)
-        if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
+        if (loads.conditions[k].acts_on(face.boundary))
           add(loads, k, face.node, face.centre);
     mask_and_share(n_nodes);
   }
@@ -46,12 +45,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  DirichletNodes<dim>::DirichletNodes(const Mesh<dim>                                            &mesh,
-                                      const Nodes<dim>                                           &nodes,
-                                      const std::vector<BoundaryFace<dim>>                       &faces,
-                                      const Loads<dim>                                           &loads,
-                                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                      const unsigned int                                          n_layers)
+  DirichletNodes<dim>::DirichletNodes(const Mesh<dim>                      &mesh,
+                                      const Nodes<dim>                     &nodes,
+                                      const std::vector<BoundaryFace<dim>> &faces,
+                                      const Loads<dim>                     &loads,
+                                      const unsigned int                    n_layers)
     : n_conditions(loads.conditions.size())
     , is_collar(n_layers > 1)
   {
@@ -61,7 +59,7 @@ namespace perideal
         {
           std::vector<double> marks(nodes.size(), 0.);
           for (const BoundaryFace<dim> &face : faces)
-            if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
+            if (loads.conditions[k].acts_on(face.boundary))
               marks[face.node] = 1;
           for (unsigned int layer = 1; layer < n_layers; ++layer)
             widen(mesh, nodes, graph, marks);

@@ -90,10 +90,16 @@ namespace perideal
     return result;
   }
 
+#define PERIDEAL_INSTANTIATE_FOR(dim, Face)                                                                  \
+  template std::vector<FacePoint<dim>> quadrature_points(const Face<dim> &);                                 \
+  template Resultant<dim>              integrate_traction(                                                   \
+                 const BoundaryCondition<dim> &, const Face<dim> &, const double, const dealii::Point<dim> &);
+  PERIDEAL_INSTANTIATE_FOR(2, BoundaryFace)
+  PERIDEAL_INSTANTIATE_FOR(3, BoundaryFace)
+  PERIDEAL_INSTANTIATE_FOR(2, SurfaceFace)
+  PERIDEAL_INSTANTIATE_FOR(3, SurfaceFace)
+#undef PERIDEAL_INSTANTIATE_FOR
   PERIDEAL_INSTANTIATE_CLASS(Resultant)
-  PERIDEAL_INSTANTIATE(quadrature_points)
-  PERIDEAL_INSTANTIATE(integrate_traction)
   template dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, 2> &);
   template dealii::Tensor<1, 3> in_space(const dealii::Tensor<1, 3> &);
-
 } // namespace perideal

@@ -9,9 +9,7 @@
 namespace perideal
 {
   template <int dim>
-  FaceValues<dim>::FaceValues(const FaceGradient<dim>                                    &gradient,
-                              const Loads<dim>                                           &loads,
-                              const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
+  FaceValues<dim>::FaceValues(const FaceGradient<dim> &gradient, const Loads<dim> &loads)
     : n_conditions(loads.conditions.size())
   {
     const auto &points = gradient.boundary_points();
@@ -20,7 +18,7 @@ namespace perideal
         Entry entry{p, points[p].point, {}, {}, {}};
         entry.condition.fill(free);
         for (unsigned int k = 0; k < n_conditions; ++k)
-          if (std::count(boundaries[k].begin(), boundaries[k].end(), points[p].boundary) > 0)
+          if (loads.conditions[k].acts_on(points[p].boundary))
             for (int d = 0; d < dim; ++d)
               if (loads.conditions[k].displacement[d].is_present())
                 entry.condition[d] = k;

@@ -4,7 +4,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace perideal
@@ -90,48 +89,40 @@ namespace perideal
       return result;
     }
 
-    /// The traction along the normal of a face [Pa].
-    double normal_traction(const SurfaceFace<3>                                       &face,
-                           const Loads<3>                                             &loads,
-                           const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                           const double                                                time)
+    /// The tractions along the normals of faces [Pa].
+    std::vector<double>
+    normal_tractions(const std::vector<SurfaceFace<3>> &faces, const Loads<3> &loads, const double time)
     {
-      double result = 0;
-      for (std::size_t k = 0; k < loads.conditions.size(); ++k)
-        if (loads.conditions[k].prescribes_traction() &&
-            std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
-          {
-            const auto   traction = Loads<3>::traction(loads.conditions[k], face.centre, face.normal, time);
-            const double along    = traction * face.normal;
-            if ((traction - along * face.normal).norm() > 1e-8 * traction.norm())
-              throw InputError(
-                "the closed form of the line-to-point force knows tractions along the normal only")
-                .parameter("Boundary conditions/Traction treatment")
-                .hint("set Boundary conditions/Treatment = taylor ghosts instead, or remove the tangential "
-                      "traction of Boundary conditions/" +
-                      loads.conditions[k].name);
-            result += along;
-          }
+      std::vector<double> result(faces.size(), 0.);
+      visit_loaded_faces(
+        loads, faces, [&](const BoundaryCondition<3> &condition, const SurfaceFace<3> &face) {
+          const auto   traction = Loads<3>::traction(condition, face.centre, face.normal, time);
+          const double along    = traction * face.normal;
+          if ((traction - along * face.normal).norm() > 1e-8 * traction.norm())
+            throw InputError(
+              "the closed form of the line-to-point force knows tractions along the normal only")
+              .parameter("Boundary conditions/Traction treatment")
+              .hint("set Boundary conditions/Treatment = taylor ghosts instead, or remove the tangential "
+                    "traction of Boundary conditions/" +
+                    condition.name);
+          result[&face - faces.data()] += along;
+        });
       return result;
     }
   } // namespace
 
-  void add_line_to_point_forces(const NodeCloud<3>                                         &nodes,
-                                const std::vector<SurfaceFace<3>>                          &faces,
-                                const Loads<3>                                             &loads,
-                                const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                const double                                                time,
-                                const std::function<LineToPoint(const LocalIndex)>         &law_of,
-                                const bool                                                  as_printed,
-                                NodalVector                                                &force)
+  void add_line_to_point_forces(const NodeCloud<3>                                 &nodes,
+                                const std::vector<SurfaceFace<3>>                  &faces,
+                                const Loads<3>                                     &loads,
+                                const double                                        time,
+                                const std::function<LineToPoint(const LocalIndex)> &law_of,
+                                const bool                                          as_printed,
+                                NodalVector                                        &force)
   {
-    std::vector<double>                 traction;
+    const std::vector<double>           traction = normal_tractions(faces, loads, time);
     std::vector<std::vector<FacePoint>> points;
-    for (const auto &face : faces)
-      {
-        traction.push_back(normal_traction(face, loads, boundaries, time));
-        points.push_back(traction.back() != 0 ? points_of(face, as_printed) : std::vector<FacePoint>());
-      }
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      points.push_back(traction[k] != 0 ? points_of(faces[k], as_printed) : std::vector<FacePoint>());
     visit_nearby_faces<3>(
       nodes, faces, [&](const LocalIndex i, const std::vector<const SurfaceFace<3> *> &near) {
         const LineToPoint    law = law_of(i);

@@ -36,17 +36,16 @@ namespace perideal
   }
 
   template <int dim>
-  MirrorLayer<dim>::MirrorLayer(const Mesh<dim>                                            &mesh,
-                                const NodeCloud<dim>                                       &real,
-                                const std::vector<BoundaryFace<dim>>                       &faces,
-                                const Loads<dim>                                           &loads,
-                                const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
+  MirrorLayer<dim>::MirrorLayer(const Mesh<dim>                      &mesh,
+                                const NodeCloud<dim>                 &real,
+                                const std::vector<BoundaryFace<dim>> &faces,
+                                const Loads<dim>                     &loads)
     : MirrorLayer(real)
   {
     // All conditions of a boundary together make one mirror.
     std::map<dealii::types::boundary_id, std::array<int, dim>> condition_of;
     for (unsigned int k = 0; k < loads.conditions.size(); ++k)
-      for (const auto id : boundaries[k])
+      for (const auto id : loads.conditions[k].boundary_ids)
         for (int d = 0; d < dim; ++d)
           if (loads.conditions[k].displacement[d].is_present())
             {

@@ -2,8 +2,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/boundary/published_transfer.h>
 
-#include <algorithm>
-
 namespace perideal
 {
   namespace
@@ -20,12 +18,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  PublishedTransfer<dim>::PublishedTransfer(
-    TransferFunctions<dim>                                      functions,
-    const Loads<dim>                                           &loads,
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-    const double                                                chi,
-    const double                                                lambda)
+  PublishedTransfer<dim>::PublishedTransfer(TransferFunctions<dim> functions,
+                                            const Loads<dim>      &loads,
+                                            const double           chi,
+                                            const double           lambda)
     : functions(std::move(functions))
     , chi(chi)
     , lambda(lambda)
@@ -37,8 +33,7 @@ namespace perideal
         {
           holder.push_back(-1);
           for (std::size_t c = 0; c < loads.conditions.size(); ++c)
-            if (loads.conditions[c].holds(d) &&
-                std::count(boundaries[c].begin(), boundaries[c].end(), face.boundary) > 0)
+            if (loads.conditions[c].holds(d) && loads.conditions[c].acts_on(face.boundary))
               holder.back() = c;
         }
     make_springs();
@@ -73,27 +68,22 @@ namespace perideal
   }
 
   template <int dim>
-  void PublishedTransfer<dim>::add_tractions(
-    const Loads<dim>                                           &loads,
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-    const double                                                time,
-    NodalVector                                                &force) const
+  void
+  PublishedTransfer<dim>::add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const
   {
     const auto &faces = functions.faces();
-    for (std::size_t c = 0; c < loads.conditions.size(); ++c)
-      if (loads.conditions[c].prescribes_traction())
-        for (std::size_t k = 0; k < faces.size(); ++k)
-          if (!functions.entries()[k].empty() &&
-              std::count(boundaries[c].begin(), boundaries[c].end(), faces[k].boundary) > 0)
-            {
-              // One point a face, as in (4.1).
-              const auto pull =
-                chi / (chi - 1) * faces[k].area / functions.node_sums()[k] *
-                Loads<dim>::traction(loads.conditions[c], faces[k].centre, faces[k].normal, time);
-              for (const auto &[i, q] : functions.entries()[k])
-                for (int d = 0; d < dim; ++d)
-                  force.local_element(dim * i + d) += q * functions.volumes()[i] * pull[d];
-            }
+    visit_loaded_faces(
+      loads, faces, [&](const BoundaryCondition<dim> &condition, const SurfaceFace<dim> &face) {
+        const std::size_t k = &face - faces.data();
+        if (functions.entries()[k].empty())
+          return;
+        // One point a face, as in (4.1).
+        const auto pull = chi / (chi - 1) * face.area / functions.node_sums()[k] *
+                          Loads<dim>::traction(condition, face.centre, face.normal, time);
+        for (const auto &[i, q] : functions.entries()[k])
+          for (int d = 0; d < dim; ++d)
+            force.local_element(dim * i + d) += q * functions.volumes()[i] * pull[d];
+      });
   }
 
   template <int dim>

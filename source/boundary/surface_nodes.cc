@@ -7,19 +7,16 @@
 namespace perideal
 {
   template <int dim>
-  SurfaceNodes<dim>::SurfaceNodes(const NodeCloud<dim>                                       &real,
-                                  const std::vector<BoundaryFace<dim>>                       &faces,
-                                  const Loads<dim>                                           &loads,
-                                  const std::vector<std::vector<dealii::types::boundary_id>> &boundaries)
+  SurfaceNodes<dim>::SurfaceNodes(const NodeCloud<dim>                 &real,
+                                  const std::vector<BoundaryFace<dim>> &faces,
+                                  const Loads<dim>                     &loads)
     : all(real)
   {
     Assert(!real.has_cells && real.shape.empty(), dealii::ExcNotImplemented());
     const auto is_held = [&](const dealii::types::boundary_id id) {
-      for (std::size_t k = 0; k < loads.conditions.size(); ++k)
-        if (loads.conditions[k].prescribes_displacement() &&
-            std::count(boundaries[k].begin(), boundaries[k].end(), id) > 0)
-          return true;
-      return false;
+      return std::any_of(loads.conditions.begin(), loads.conditions.end(), [&](const auto &condition) {
+        return condition.prescribes_displacement() && condition.acts_on(id);
+      });
     };
     for (const BoundaryFace<dim> &face : faces)
       if (is_held(face.boundary))

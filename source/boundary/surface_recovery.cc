@@ -17,18 +17,15 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  SurfaceRecovery<dim>::SurfaceRecovery(
-    const Mesh<dim>                                            &mesh,
-    const CellGraph<dim>                                       &graph,
-    const SolidsByMaterial<dim>                                &solids,
-    const Loads<dim>                                           &loads,
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-    const Held                                                  held)
+  SurfaceRecovery<dim>::SurfaceRecovery(const Mesh<dim>             &mesh,
+                                        const CellGraph<dim>        &graph,
+                                        const SolidsByMaterial<dim> &solids,
+                                        const Loads<dim>            &loads,
+                                        const Held                   held)
     : mesh(mesh)
     , graph(graph)
     , solids(solids)
     , loads(loads)
-    , boundaries(boundaries)
     , held(held)
     , faces(find_boundary_faces(mesh, graph))
   {
@@ -49,7 +46,7 @@ namespace perideal
     dealii::Tensor<1, dim> traction;
     std::array<bool, dim>  is_held{};
     for (std::size_t k = 0; k < loads.conditions.size(); ++k)
-      if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
+      if (loads.conditions[k].acts_on(face.boundary))
         {
           const BoundaryCondition<dim> &condition = loads.conditions[k];
           if (condition.prescribes_traction())

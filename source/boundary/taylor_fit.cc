@@ -105,13 +105,11 @@ namespace perideal
   };
 
   template <int dim>
-  TaylorFit<dim>::TaylorFit(const Families<dim>                                        &families,
-                            const Loads<dim>                                           &loads,
-                            const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                            const dealii::SymmetricTensor<4, dim>                      &stiffness)
+  TaylorFit<dim>::TaylorFit(const Families<dim>                   &families,
+                            const Loads<dim>                      &loads,
+                            const dealii::SymmetricTensor<4, dim> &stiffness)
     : families(families)
     , loads(loads)
-    , boundaries(boundaries)
     , stiffness(stiffness)
   {
   }
@@ -125,7 +123,7 @@ namespace perideal
         SurfaceValue<dim>         value{face.centre, face.normal, component, false, {}};
         std::vector<unsigned int> holders;
         for (unsigned int k = 0; k < loads.conditions.size(); ++k)
-          if (std::count(boundaries[k].begin(), boundaries[k].end(), face.boundary) > 0)
+          if (loads.conditions[k].acts_on(face.boundary))
             {
               if (loads.conditions[k].holds(component))
                 holders.push_back(k);

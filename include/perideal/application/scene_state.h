@@ -56,10 +56,9 @@ namespace perideal
   template <int dim>
   struct SceneState
   {
-    std::unique_ptr<Mesh<dim>>                           mesh;
-    Loads<dim>                                           loads;
-    std::vector<std::vector<dealii::types::boundary_id>> condition_boundaries;
-    SolidsByMaterial<dim>                                solids;
+    std::unique_ptr<Mesh<dim>> mesh;
+    Loads<dim>                 loads;
+    SolidsByMaterial<dim>      solids;
 
     std::unique_ptr<Nodes<dim>>    nodes;
     std::vector<BoundaryFace<dim>> faces;

@@ -25,10 +25,7 @@ namespace perideal
     /// Collective.
     explicit BalancedTransfer(TransferFunctions<dim> functions);
 
-    void add_tractions(const Loads<dim>                                           &loads,
-                       const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                       const double                                                time,
-                       NodalVector                                                &force) const override;
+    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const override;
 
   private:
     /// Of the nodes of a face: their centroid, from that of the face [m], and the inverse of I [1/m^5].

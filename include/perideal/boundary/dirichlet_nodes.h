@@ -21,21 +21,19 @@ namespace perideal
     DirichletNodes() = default;
 
     /// Every node with a face on a boundary that a condition holds.
-    DirichletNodes(const std::vector<BoundaryFace<dim>>                       &faces,
-                   const Loads<dim>                                           &loads,
-                   const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                   const LocalIndex                                            n_nodes);
+    DirichletNodes(const std::vector<BoundaryFace<dim>> &faces,
+                   const Loads<dim>                     &loads,
+                   const LocalIndex                      n_nodes);
 
     /// The nodes of the cells within some layers of a boundary that a condition holds: those with a face on
     /// it, in the next layer those that share a vertex with these, and so on. Values are those at the nodes
     /// themselves. Collective.
     /// @param n_layers 1 or more
-    DirichletNodes(const Mesh<dim>                                            &mesh,
-                   const Nodes<dim>                                           &nodes,
-                   const std::vector<BoundaryFace<dim>>                       &faces,
-                   const Loads<dim>                                           &loads,
-                   const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                   const unsigned int                                          n_layers);
+    DirichletNodes(const Mesh<dim>                      &mesh,
+                   const Nodes<dim>                     &nodes,
+                   const std::vector<BoundaryFace<dim>> &faces,
+                   const Loads<dim>                     &loads,
+                   const unsigned int                    n_layers);
 
     /// A component of a node held by a condition, through a face of it or in its layers. A node at a corner
     /// may have several entries for one component; they count with equal shares.

@@ -22,9 +22,7 @@ namespace perideal
     /// Nothing is prescribed.
     FaceValues() = default;
 
-    FaceValues(const FaceGradient<dim>                                    &gradient,
-               const Loads<dim>                                           &loads,
-               const std::vector<std::vector<dealii::types::boundary_id>> &boundaries);
+    FaceValues(const FaceGradient<dim> &gradient, const Loads<dim> &loads);
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 

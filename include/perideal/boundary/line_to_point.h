@@ -44,14 +44,13 @@ namespace perideal
    * @param law_of a node
    * @throws InputError on all ranks where a traction is not along the normal (4.47).
    */
-  void add_line_to_point_forces(const NodeCloud<3>                                         &nodes,
-                                const std::vector<SurfaceFace<3>>                          &faces,
-                                const Loads<3>                                             &loads,
-                                const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                                const double                                                time,
-                                const std::function<LineToPoint(const LocalIndex)>         &law_of,
-                                const bool                                                  as_printed,
-                                NodalVector                                                &force);
+  void add_line_to_point_forces(const NodeCloud<3>                                 &nodes,
+                                const std::vector<SurfaceFace<3>>                  &faces,
+                                const Loads<3>                                     &loads,
+                                const double                                        time,
+                                const std::function<LineToPoint(const LocalIndex)> &law_of,
+                                const bool                                          as_printed,
+                                NodalVector                                        &force);
 } // namespace perideal
 
 #endif

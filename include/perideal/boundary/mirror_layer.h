@@ -29,11 +29,10 @@ namespace perideal
 
     /// @throws InputError when a boundary with prescribed displacement is not
     ///   plane, or not along the axes while some components are free. Collective.
-    MirrorLayer(const Mesh<dim>                                            &mesh,
-                const NodeCloud<dim>                                       &real,
-                const std::vector<BoundaryFace<dim>>                       &faces,
-                const Loads<dim>                                           &loads,
-                const std::vector<std::vector<dealii::types::boundary_id>> &boundaries);
+    MirrorLayer(const Mesh<dim>                      &mesh,
+                const NodeCloud<dim>                 &real,
+                const std::vector<BoundaryFace<dim>> &faces,
+                const Loads<dim>                     &loads);
 
     /// Real nodes first, then the fictitious ones of this rank.
     const NodeCloud<dim> &nodes() const { return all; }

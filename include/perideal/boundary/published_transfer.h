@@ -29,16 +29,12 @@ namespace perideal
     /// @param chi neither 0 nor 1 [-]
     /// @param lambda 0: no L, and no sums for it [N/m^11]
     /// Collective.
-    PublishedTransfer(TransferFunctions<dim>                                      functions,
-                      const Loads<dim>                                           &loads,
-                      const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                      const double                                                chi,
-                      const double                                                lambda);
+    PublishedTransfer(TransferFunctions<dim> functions,
+                      const Loads<dim>      &loads,
+                      const double           chi,
+                      const double           lambda);
 
-    void add_tractions(const Loads<dim>                                           &loads,
-                       const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                       const double                                                time,
-                       NodalVector                                                &force) const override;
+    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const override;
 
     /// Adds what L makes of places: of those of held faces, and of the nodes' own at rest [N].
     void add_places(const Loads<dim> &loads, const double time, NodalVector &force) const;

@@ -19,10 +19,9 @@ namespace perideal
   {
   public:
     /// Collective.
-    SurfaceNodes(const NodeCloud<dim>                                       &real,
-                 const std::vector<BoundaryFace<dim>>                       &faces,
-                 const Loads<dim>                                           &loads,
-                 const std::vector<std::vector<dealii::types::boundary_id>> &boundaries);
+    SurfaceNodes(const NodeCloud<dim>                 &real,
+                 const std::vector<BoundaryFace<dim>> &faces,
+                 const Loads<dim>                     &loads);
 
     /// The nodes of cells first, then those on the surface of this rank.
     const NodeCloud<dim> &nodes() const { return all; }

@@ -44,13 +44,11 @@ namespace perideal
   {
   public:
     /// All arguments but @p held must live longer.
-    /// @param boundaries of each condition, from resolve_boundaries()
-    SurfaceRecovery(const Mesh<dim>                                            &mesh,
-                    const CellGraph<dim>                                       &graph,
-                    const SolidsByMaterial<dim>                                &solids,
-                    const Loads<dim>                                           &loads,
-                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                    const Held                                                  held);
+    SurfaceRecovery(const Mesh<dim>             &mesh,
+                    const CellGraph<dim>        &graph,
+                    const SolidsByMaterial<dim> &solids,
+                    const Loads<dim>            &loads,
+                    const Held                   held);
 
     /// The states of this rank's faces of a boundary, in the order of the cells.
     /// The same on any number of ranks, but for round-off. Collective.
@@ -73,12 +71,11 @@ namespace perideal
                                const std::vector<dealii::Tensor<1, dim>> &displacement,
                                const double                               time) const;
 
-    const Mesh<dim>                                            &mesh;
-    const CellGraph<dim>                                       &graph;
-    const SolidsByMaterial<dim>                                &solids;
-    const Loads<dim>                                           &loads;
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries;
-    Held                                                        held;
+    const Mesh<dim>             &mesh;
+    const CellGraph<dim>        &graph;
+    const SolidsByMaterial<dim> &solids;
+    const Loads<dim>            &loads;
+    Held                         held;
 
     /// Of owned and ghost cells; those of node i are [first_face[i], first_face[i+1]).
     std::vector<BoundaryFace<dim>> faces;

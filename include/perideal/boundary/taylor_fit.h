@@ -85,10 +85,9 @@ namespace perideal
   public:
     /// The arguments must outlive this object.
     /// @param stiffness C [Pa]
-    TaylorFit(const Families<dim>                                        &families,
-              const Loads<dim>                                           &loads,
-              const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-              const dealii::SymmetricTensor<4, dim>                      &stiffness);
+    TaylorFit(const Families<dim>                   &families,
+              const Loads<dim>                      &loads,
+              const dealii::SymmetricTensor<4, dim> &stiffness);
 
     /// A face of the surface near a node, and whether it is one of the node's own cell.
     using NearFace = std::pair<const SurfaceFace<dim> *, bool>;
@@ -122,10 +121,9 @@ namespace perideal
       return {Basis::monomials(d), 1. / d.norm_square()};
     }
 
-    const Families<dim>                                        &families;
-    const Loads<dim>                                           &loads;
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries;
-    const dealii::SymmetricTensor<4, dim>                       stiffness;
+    const Families<dim>                  &families;
+    const Loads<dim>                     &loads;
+    const dealii::SymmetricTensor<4, dim> stiffness;
   };
 } // namespace perideal
 

@@ -70,10 +70,7 @@ namespace perideal
     virtual ~TractionTransfer() = default;
 
     /// Adds the forces of tractions and pressures on owned nodes [N].
-    virtual void add_tractions(const Loads<dim>                                           &loads,
-                               const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                               const double                                                time,
-                               NodalVector                                                &force) const = 0;
+    virtual void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const = 0;
   };
 } // namespace perideal
 

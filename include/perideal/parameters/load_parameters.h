@@ -6,7 +6,9 @@
 #include <perideal/parameters/space_time_function.h>
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/types.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -165,12 +167,21 @@ namespace perideal
   template <int dim>
   struct BoundaryCondition
   {
-    std::string                             name;
-    std::vector<std::string>                boundaries;
+    std::string name;
+    /// Gmsh physical names or ids, as given.
+    std::vector<std::string> boundaries;
+    /// The same as ids of the mesh, once resolve_boundaries() has found them.
+    std::vector<dealii::types::boundary_id> boundary_ids;
     std::array<SpaceTimeFunction<dim>, dim> displacement;
     std::array<SpaceTimeFunction<dim>, dim> velocity;
     std::array<SpaceTimeFunction<dim>, dim> traction;
     SpaceTimeFunction<dim>                  pressure;
+
+    /// Whether it names a boundary.
+    bool acts_on(const dealii::types::boundary_id boundary) const
+    {
+      return std::find(boundary_ids.begin(), boundary_ids.end(), boundary) != boundary_ids.end();
+    }
 
     /// Whether the displacement of a component is prescribed, or its velocity.
     bool holds(const unsigned int component) const

@@ -70,15 +70,13 @@ namespace perideal
   }
 
   template <int dim>
-  TaylorExtension<dim>::TaylorExtension(
-    const std::shared_ptr<const BondOperator<dim>>             &bonds,
-    const std::shared_ptr<const Families<dim>>                 &families,
-    const NodeCloud<dim>                                       &nodes,
-    const std::vector<BoundaryFace<dim>>                       &faces,
-    const std::vector<SurfaceFace<dim>>                        &surface,
-    const Loads<dim>                                           &loads,
-    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-    const dealii::SymmetricTensor<4, dim>                      &stiffness)
+  TaylorExtension<dim>::TaylorExtension(const std::shared_ptr<const BondOperator<dim>> &bonds,
+                                        const std::shared_ptr<const Families<dim>>     &families,
+                                        const NodeCloud<dim>                           &nodes,
+                                        const std::vector<BoundaryFace<dim>>           &faces,
+                                        const std::vector<SurfaceFace<dim>>            &surface,
+                                        const Loads<dim>                               &loads,
+                                        const dealii::SymmetricTensor<4, dim>          &stiffness)
     : bonds(bonds)
     , families(families)
     , ghosted(families->make_partitioner(dim))
@@ -98,14 +96,14 @@ namespace perideal
     find_near_faces(nodes, faces, surface, near, is_inside);
     std::vector<std::vector<const BoundaryFace<dim> *>> loaded(nodes.size());
     for (const BoundaryFace<dim> &face : faces)
-      if (std::any_of(boundaries.begin(), boundaries.end(), [&](const auto &ids) {
-            return std::count(ids.begin(), ids.end(), face.boundary) > 0;
+      if (std::any_of(loads.conditions.begin(), loads.conditions.end(), [&](const auto &condition) {
+            return condition.acts_on(face.boundary);
           }))
         loaded[face.node].push_back(&face);
 
     const PolynomialResponse<dim> response(*bonds, *families);
     stiffness_of_bonds = response.stiffness(is_inside).value_or(stiffness);
-    const TaylorFit<dim> fit(*families, loads, boundaries, stiffness_of_bonds);
+    const TaylorFit<dim> fit(*families, loads, stiffness_of_bonds);
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
         if (!response.lacks_bonds(i))

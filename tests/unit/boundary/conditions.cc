@@ -22,8 +22,7 @@ namespace
     {
       LoadParameters parameters;
       parameters.conditions = conditions;
-      loads                 = Loads<2>(parameters);
-      boundaries            = resolve_boundaries(*mesh, loads);
+      loads                 = resolve_boundaries(*mesh, Loads<2>(parameters));
     }
 
     NodalVector field() const
@@ -33,11 +32,10 @@ namespace
       return NodalVector(owned, MPI_COMM_WORLD);
     }
 
-    std::unique_ptr<Mesh<2>>                             mesh;
-    Nodes<2>                                             nodes;
-    std::vector<BoundaryFace<2>>                         faces;
-    Loads<2>                                             loads;
-    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
+    std::unique_ptr<Mesh<2>>     mesh;
+    Nodes<2>                     nodes;
+    std::vector<BoundaryFace<2>> faces;
+    Loads<2>                     loads;
   };
 
   BoundaryConditionText condition(const std::string &name, const std::string &boundary)
@@ -88,7 +86,7 @@ TEST(BoundaryFaces, UnknownAndDoubleConditionsAreErrors)
 TEST(DirichletNodes, TakeTheBoundarysValue)
 {
   const Scene             scene({held("0", "3*y*t", ""), held("3", "", "5")});
-  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.nodes.size());
   NodalVector             u = scene.field();
   u                         = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
@@ -117,7 +115,7 @@ TEST(DirichletNodes, TakeTheBoundarysValue)
 TEST(DirichletNodes, ReactionsAreSummedByCondition)
 {
   const Scene             scene({held("0", "0", "0"), held("1", "1", "")});
-  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> nodes(scene.faces, scene.loads, scene.nodes.size());
   NodalVector             force = scene.field();
   force                         = 2.;
   const auto reactions          = nodes.sum_by_condition(force, MPI_COMM_WORLD);
@@ -130,7 +128,7 @@ TEST(DirichletNodes, ReactionsAreSummedByCondition)
 TEST(DirichletNodes, LayersTakeTheFieldAtTheirNodes)
 {
   const Scene             scene({held("0", "3*y*t", ""), held("3", "x+1", "5")});
-  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 3);
+  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, 3);
   NodalVector             u = scene.field();
   u                         = 7.;
   nodes.set_boundary_values(scene.loads, 2., u);
@@ -181,7 +179,7 @@ TEST(DirichletNodes, LayersCrossRanks)
         test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3, k == 0 ? MPI_COMM_SELF : MPI_COMM_WORLD);
       const Nodes<2>          nodes(*mesh, NodeParameters{3.01});
       const DirichletNodes<2> layers(
-        *mesh, nodes, find_boundary_faces(*mesh, nodes), loads, resolve_boundaries(*mesh, loads), 4);
+        *mesh, nodes, find_boundary_faces(*mesh, nodes), resolve_boundaries(*mesh, loads), 4);
       n_held[k] = std::count(layers.mask().begin(), layers.mask().end(), 1);
     }
   EXPECT_GT(n_held[0], 40.);
@@ -192,9 +190,9 @@ TEST(DirichletNodes, InfiniteValuesAreErrors)
 {
   // Finite at the boundary, a pole within.
   const Scene             scene({held("0", "0", "1/(x-0.0625)")}, 0.);
-  const DirichletNodes<2> first(scene.faces, scene.loads, scene.boundaries, scene.nodes.size());
+  const DirichletNodes<2> first(scene.faces, scene.loads, scene.nodes.size());
   first.check_finite(scene.loads, 1., MPI_COMM_WORLD);
-  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries, 2);
+  const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, 2);
   expect_input_error([&] { nodes.check_finite(scene.loads, 1., MPI_COMM_WORLD); },
                      {"Boundary conditions/hold 0/u_y", "not a finite number"});
 }
@@ -207,7 +205,7 @@ TEST(NodalForces, ResultantsAreExact)
   pressed.pressure = "4*t";
   const Scene scene({pulled, pressed});
   NodalVector force = scene.field();
-  compute_nodal_forces(scene.nodes, scene.faces, scene.loads, scene.boundaries, 0.5, force);
+  compute_nodal_forces(scene.nodes, scene.faces, scene.loads, 0.5, force);
   double x = 0, y = 0;
   for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
     {
@@ -222,7 +220,7 @@ TEST(NodalForces, ResultantsAreExact)
 TEST(MirrorLayer, ImagesStandBehindThePlaneAndMoveAsTold)
 {
   const Scene    scene({held("1", "1e-3*t", "")}, 0.);
-  MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads);
   EXPECT_TRUE(mirror.keeps_symmetry());
   EXPECT_GT(sum(mirror.n_fictitious()), 0.);
   for (LocalIndex i = 0; i < mirror.nodes().size(); ++i)
@@ -249,7 +247,7 @@ TEST(MirrorLayer, ImagesStandBehindThePlaneAndMoveAsTold)
 TEST(MirrorLayer, CornersAreFilled)
 {
   const Scene          scene({held("1", "0", ""), held("3", "", "0")}, 0.);
-  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads);
   double               n_corner = 0;
   for (LocalIndex i = mirror.n_real(); i < mirror.nodes().size(); ++i)
     n_corner += mirror.nodes().position[i][0] > 1. && mirror.nodes().position[i][1] > 0.75;
@@ -259,7 +257,7 @@ TEST(MirrorLayer, CornersAreFilled)
 TEST(MirrorLayer, ClampedPlanesBreakTheSymmetry)
 {
   const Scene          scene({held("1", "0", "0")});
-  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries);
+  const MirrorLayer<2> mirror(*scene.mesh, scene.nodes, scene.faces, scene.loads);
   EXPECT_FALSE(mirror.keeps_symmetry());
 }
 
@@ -270,7 +268,6 @@ TEST(MirrorLayer, BentBoundariesAreErrors)
     if (face.boundary == 1)
       for (auto &vertex : face.vertices)
         vertex[0] += 0.1 * vertex[1] * vertex[1];
-  expect_input_error(
-    [&] { MirrorLayer<2>(*scene.mesh, scene.nodes, scene.faces, scene.loads, scene.boundaries); },
-    {"Displacement treatment", "plane"});
+  expect_input_error([&] { MirrorLayer<2>(*scene.mesh, scene.nodes, scene.faces, scene.loads); },
+                     {"Displacement treatment", "plane"});
 }

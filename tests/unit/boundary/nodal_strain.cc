@@ -19,8 +19,8 @@ namespace
       {
         const Nodes<dim>        nodes(*mesh, NodeParameters{3.01});
         const FaceGradient<dim> gradient(*mesh, nodes, [](const auto) { return 1.; });
-        const Loads<dim>        loads(field.loads());
-        FaceValues<dim>         held(gradient, loads, resolve_boundaries(*mesh, loads));
+        const Loads<dim>        loads = resolve_boundaries(*mesh, Loads<dim>(field.loads()));
+        FaceValues<dim>         held(gradient, loads);
         held.set_time(loads, 1.);
         const auto u = at_nodes(nodes, [&](const auto &x) { return field.displacement(x); });
         for (const auto &prescribed : {FaceValues<dim>(), held})
@@ -52,8 +52,8 @@ TEST(NodalStrain, HeedsPrescribedFaceValues)
   condition.name = condition.boundary = "1";
   condition.displacement[1]           = "0.5";
   text.conditions                     = {condition};
-  const Loads<2> loads(text);
-  FaceValues<2>  held(gradient, loads, resolve_boundaries(*mesh, loads));
+  const Loads<2> loads                = resolve_boundaries(*mesh, Loads<2>(text));
+  FaceValues<2>  held(gradient, loads);
   held.set_time(loads, 1.);
   const auto strains =
     compute_nodal_strain(gradient, held, nodes, std::vector<dealii::Tensor<1, 2>>(nodes.size()));

@@ -25,10 +25,11 @@ namespace
         pull.traction     = {{"1", "", ""}};
         LoadParameters text;
         text.conditions = {hold, pull};
-        const Loads<dim>                                           loads(text);
-        const std::vector<std::vector<dealii::types::boundary_id>> boundaries = {{0, 2}, {1, 3}};
-        const SurfaceNodes<dim>                                    surface(real, faces, loads, boundaries);
-        const NodeCloud<dim>                                      &all = surface.nodes();
+        Loads<dim> loads(text);
+        loads.conditions[0].boundary_ids = {0, 2};
+        loads.conditions[1].boundary_ids = {1, 3};
+        const SurfaceNodes<dim> surface(real, faces, loads);
+        const NodeCloud<dim>   &all = surface.nodes();
 
         // One for each held face, by its own rank; those of cells stay what they were.
         std::vector<BoundaryFace<dim>> held;
@@ -50,7 +51,7 @@ namespace
           }
 
         // Held in the prescribed component, at the face; free in the others, as the nodes of cells are.
-        const DirichletNodes<dim> on_surface(surface.faces(), loads, boundaries, all.size());
+        const DirichletNodes<dim> on_surface(surface.faces(), loads, all.size());
         for (LocalIndex i = 0; i < all.size(); ++i)
           for (int d = 0; d < dim; ++d)
             EXPECT_EQ(on_surface.mask()[dim * i + d] != 0, i >= real.size() && d == 1);

@@ -23,9 +23,8 @@ namespace
   {
     const Nodes<dim>           nodes(mesh, NodeParameters{3.01});
     const CellGraph<dim>       graph(mesh, nodes);
-    const Loads<dim>           loads(text);
-    const auto                 boundaries = resolve_boundaries(mesh, loads);
-    const SurfaceRecovery<dim> recovery(mesh, graph, materials, loads, boundaries, Held::at_faces);
+    const Loads<dim>           loads = resolve_boundaries(mesh, Loads<dim>(text));
+    const SurfaceRecovery<dim> recovery(mesh, graph, materials, loads, Held::at_faces);
     for (const auto id : mesh.boundary_ids)
       for (const auto &state : recovery.recover(id, at_nodes(nodes, displacement), 1.))
         check(state);

@@ -29,8 +29,7 @@ namespace
       text.conditions[1].name         = "pulled";
       text.conditions[1].boundary     = "1";
       text.conditions[1].pressure     = "-1e6";
-      loads                           = Loads<2>(text);
-      boundaries                      = resolve_boundaries(*mesh, loads);
+      loads                           = resolve_boundaries(*mesh, Loads<2>(text));
       stiffness = ElasticSolid<2>({70e9, 0.3, PlaneAssumption::plane_stress}).stiffness();
       faces     = find_boundary_faces(*mesh, body.nodes);
       surface   = gather_faces(faces, MPI_COMM_WORLD);
@@ -48,13 +47,12 @@ namespace
       return result;
     }
 
-    std::unique_ptr<Mesh<2>>                             mesh;
-    test::Body<2>                                        body;
-    Loads<2>                                             loads;
-    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
-    dealii::SymmetricTensor<4, 2>                        stiffness;
-    std::vector<BoundaryFace<2>>                         faces;
-    std::vector<SurfaceFace<2>>                          surface;
+    std::unique_ptr<Mesh<2>>      mesh;
+    test::Body<2>                 body;
+    Loads<2>                      loads;
+    dealii::SymmetricTensor<4, 2> stiffness;
+    std::vector<BoundaryFace<2>>  faces;
+    std::vector<SurfaceFace<2>>   surface;
   };
 
   /// Coefficients for displacements of the family that scatter, and the values that the loads give.
@@ -73,7 +71,7 @@ namespace
 TEST(TaylorFit, ReproducesPolynomialsOfSecondDegree)
 {
   const Plate        plate;
-  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.boundaries, plate.stiffness);
+  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.stiffness);
   for (LocalIndex i = 0; i < plate.body.nodes.size(); ++i)
     {
       const auto   polynomial = fit.fit(i, {});
@@ -97,7 +95,7 @@ TEST(TaylorFit, ReproducesPolynomialsOfSecondDegree)
 TEST(TaylorFit, MeetsWhatIsKnownOfTheFacesOfItsCell)
 {
   const Plate        plate;
-  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.boundaries, plate.stiffness);
+  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.stiffness);
   const auto        &nodes = plate.body.nodes;
   for (const BoundaryFace<2> &face : plate.faces)
     {
@@ -124,7 +122,7 @@ TEST(TaylorFit, MeetsWhatIsKnownOfTheFacesOfItsCell)
 TEST(TaylorFit, InsideReproducesLinearFields)
 {
   const Plate        plate;
-  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.boundaries, plate.stiffness);
+  const TaylorFit<2> fit(*plate.body.families, plate.loads, plate.stiffness);
   for (LocalIndex i = 0; i < plate.body.nodes.size(); ++i)
     {
       const auto      polynomial = fit.fit_inside(i);

@@ -54,10 +54,7 @@ namespace
       press.pressure = "1+x+2*y";
       LoadParameters text;
       text.conditions = {pull, press};
-      loads           = Loads<dim>(text);
-      for (const auto id : mesh.boundary_ids)
-        ids.push_back(id);
-      boundaries = {ids, ids};
+      loads           = resolve_boundaries(mesh, Loads<dim>(text));
     }
 
     NodalVector forces_of(const TractionTransfer<dim> &transfer) const
@@ -65,7 +62,7 @@ namespace
       dealii::IndexSet owned(dim * nodes.n_global);
       owned.add_range(dim * nodes.first_global, dim * (nodes.first_global + nodes.size()));
       NodalVector force(owned, MPI_COMM_WORLD);
-      transfer.add_tractions(loads, boundaries, 1., force);
+      transfer.add_tractions(loads, 1., force);
       return force;
     }
 
@@ -95,12 +92,10 @@ namespace
       return {sum(result.force), sum(result.moment)};
     }
 
-    Nodes<dim>                                           nodes;
-    std::vector<BoundaryFace<dim>>                       faces;
-    TransferFunctions<dim>                               functions;
-    Loads<dim>                                           loads;
-    std::vector<dealii::types::boundary_id>              ids;
-    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
+    Nodes<dim>                              nodes;
+    std::vector<BoundaryFace<dim>>          faces;
+    TransferFunctions<dim>                  functions;
+    Loads<dim>                              loads;
   };
 
   /// (2.3), (2.4) and (2.5), relative to the sizes of the terms.
@@ -232,8 +227,8 @@ TEST(PublishedTransfer, MultipliesTheForce)
 {
   const auto     mesh = test::make_box<3>({5, 5, 4}, {1., 1., 0.8}, 0.25);
   const Scene<3> scene(*mesh);
-  const auto     nodal = scene.of_nodes(
-    scene.forces_of(PublishedTransfer<3>(scene.functions, scene.loads, scene.boundaries, 3.59, 0.)));
+  const auto     nodal =
+    scene.of_nodes(scene.forces_of(PublishedTransfer<3>(scene.functions, scene.loads, 3.59, 0.)));
   const auto applied = scene.of_faces();
   EXPECT_LE((nodal.force - 3.59 / 2.59 * applied.force).norm(), 1e-12 * applied.force.norm());
 }

@@ -23,15 +23,14 @@ namespace
                const std::vector<ElasticSolid<dim>> &materials)
       : body(mesh)
       , faces(find_boundary_faces(mesh, body.nodes))
-      , loads(text)
-      , boundaries(resolve_boundaries(mesh, loads))
+      , loads(resolve_boundaries(mesh, Loads<dim>(text)))
       , solid_of([materials](const dealii::types::material_id id) { return materials[id]; })
     {
       ModelParameters parameters;
       parameters.resolve(dim);
       gradient = std::make_shared<const FaceGradient<dim>>(
         mesh, body.nodes, [&](const auto id) { return solid_of(id).isotropic().shear_modulus(); });
-      values = std::make_shared<FaceValues<dim>>(*gradient, loads, boundaries);
+      values = std::make_shared<FaceValues<dim>>(*gradient, loads);
       values->set_time(loads, 1.);
       bonds = std::make_shared<ConsistentOperator<dim>>(
         body.families, gradient, values, create_consistent<dim>(parameters, 3.01), solid_of);
@@ -46,7 +45,7 @@ namespace
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         for (int d = 0; d < dim; ++d)
           displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
-      compute_forces_at_faces(body.nodes, faces, *gradient, loads, boundaries, 1., external);
+      compute_forces_at_faces(body.nodes, faces, *gradient, loads, 1., external);
       bonds->internal_force(force, displacement);
       double size = 0, worst = 0;
       for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
@@ -60,15 +59,14 @@ namespace
              dealii::Utilities::MPI::max(size, MPI_COMM_WORLD);
     }
 
-    test::Body<dim>                                      body;
-    std::vector<BoundaryFace<dim>>                       faces;
-    Loads<dim>                                           loads;
-    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
-    SolidOf<dim>                                         solid_of;
-    std::shared_ptr<const FaceGradient<dim>>             gradient;
-    std::shared_ptr<FaceValues<dim>>                     values;
-    std::shared_ptr<ConsistentOperator<dim>>             bonds;
-    NodalVector                                          displacement, force, external;
+    test::Body<dim>                          body;
+    std::vector<BoundaryFace<dim>>           faces;
+    Loads<dim>                               loads;
+    SolidOf<dim>                             solid_of;
+    std::shared_ptr<const FaceGradient<dim>> gradient;
+    std::shared_ptr<FaceValues<dim>>         values;
+    std::shared_ptr<ConsistentOperator<dim>> bonds;
+    NodalVector                              displacement, force, external;
   };
 
   /// A linear displacement and, as formulas, the conditions that belong to it.

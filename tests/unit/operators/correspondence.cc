@@ -49,12 +49,12 @@ namespace
           for (int d = 0; d < dim; ++d)
             text.conditions.back().displacement[d] = test::formula(H, d);
         }
-      const Loads<dim> loads(text);
+      const Loads<dim> loads = resolve_boundaries(mesh, Loads<dim>(text));
       if (form == "consistent")
         {
           gradient =
             std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; });
-          face_values = std::make_shared<FaceValues<dim>>(*gradient, loads, resolve_boundaries(mesh, loads));
+          face_values = std::make_shared<FaceValues<dim>>(*gradient, loads);
           face_values->set_time(loads, 1.);
         }
       rows = std::make_shared<CorrespondenceRows<dim>>(

@@ -137,16 +137,9 @@ namespace
             }
           text.conditions.push_back(condition);
         }
-      loads      = Loads<dim>(text);
-      boundaries = resolve_boundaries(mesh, loads);
-      return std::make_shared<TaylorExtension<dim>>(plain,
-                                                    body.families,
-                                                    body.nodes,
-                                                    faces,
-                                                    gather_faces(faces, MPI_COMM_WORLD),
-                                                    loads,
-                                                    boundaries,
-                                                    material);
+      loads = resolve_boundaries(mesh, Loads<dim>(text));
+      return std::make_shared<TaylorExtension<dim>>(
+        plain, body.families, body.nodes, faces, gather_faces(faces, MPI_COMM_WORLD), loads, material);
     }
 
     NodalVector displacement() const
@@ -180,14 +173,13 @@ namespace
       return force.linfty_norm() / before;
     }
 
-    test::Body<dim>                                      body;
-    Field<dim>                                           field;
-    std::vector<BoundaryFace<dim>>                       faces;
-    Loads<dim>                                           loads;
-    std::vector<std::vector<dealii::types::boundary_id>> boundaries;
-    dealii::SymmetricTensor<4, dim>                      stiffness;
-    std::shared_ptr<BondOperator<dim>>                   plain;
-    std::shared_ptr<TaylorExtension<dim>>                ghosts;
+    test::Body<dim>                       body;
+    Field<dim>                            field;
+    std::vector<BoundaryFace<dim>>        faces;
+    Loads<dim>                            loads;
+    dealii::SymmetricTensor<4, dim>       stiffness;
+    std::shared_ptr<BondOperator<dim>>    plain;
+    std::shared_ptr<TaylorExtension<dim>> ghosts;
   };
 
   /// Stretch, shear and rotation, and curvature where asked for.

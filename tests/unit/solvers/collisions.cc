@@ -21,8 +21,7 @@ namespace
       : mesh(test::make_box<2>({16, 8}, {2., 1.}, 0.15))
       , body(*mesh, horizon_factor)
       , loads(LoadParameters())
-      , held(
-          find_boundary_faces(*mesh, body.nodes), loads, resolve_boundaries(*mesh, loads), body.nodes.size())
+      , held(find_boundary_faces(*mesh, body.nodes), loads, body.nodes.size())
       , mass(body.nodes.volume)
     {
       ModelParameters parameters;

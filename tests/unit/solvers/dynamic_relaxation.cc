@@ -42,12 +42,11 @@ namespace
     {
       LoadParameters text;
       text.conditions = conditions;
-      loads           = Loads<dim>(text);
-      held            = DirichletNodes<dim>(
-        find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size());
-      weights = weigh(variant, 1.);
-      bonds   = create_bond_force<dim>(*weights);
-      system  = make_system(weights);
+      loads           = resolve_boundaries(mesh, Loads<dim>(text));
+      held            = DirichletNodes<dim>(find_boundary_faces(mesh, body.nodes), loads, body.nodes.size());
+      weights         = weigh(variant, 1.);
+      bonds           = create_bond_force<dim>(*weights);
+      system          = make_system(weights);
       bonds->initialize(load);
     }
 

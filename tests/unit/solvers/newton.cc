@@ -40,9 +40,8 @@ namespace
     {
       LoadParameters text;
       text.conditions = conditions;
-      loads           = Loads<2>(text);
-      held            = DirichletNodes<2>(
-        find_boundary_faces(mesh, body.nodes), loads, resolve_boundaries(mesh, loads), body.nodes.size());
+      loads           = resolve_boundaries(mesh, Loads<2>(text));
+      held            = DirichletNodes<2>(find_boundary_faces(mesh, body.nodes), loads, body.nodes.size());
       ModelParameters model;
       model.model = variant.first;
       model.form  = variant.second;

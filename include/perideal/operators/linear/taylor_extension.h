@@ -41,16 +41,14 @@ namespace perideal
     /// @param bonds the operator of the bonds that are there
     /// @param families theirs
     /// @param faces of this rank @param surface faces of all ranks
-    /// @param boundaries of each condition of the loads
     /// @param stiffness of the material, C [Pa]. Collective.
-    TaylorExtension(const std::shared_ptr<const BondOperator<dim>>             &bonds,
-                    const std::shared_ptr<const Families<dim>>                 &families,
-                    const NodeCloud<dim>                                       &nodes,
-                    const std::vector<BoundaryFace<dim>>                       &faces,
-                    const std::vector<SurfaceFace<dim>>                        &surface,
-                    const Loads<dim>                                           &loads,
-                    const std::vector<std::vector<dealii::types::boundary_id>> &boundaries,
-                    const dealii::SymmetricTensor<4, dim>                      &stiffness);
+    TaylorExtension(const std::shared_ptr<const BondOperator<dim>> &bonds,
+                    const std::shared_ptr<const Families<dim>>     &families,
+                    const NodeCloud<dim>                           &nodes,
+                    const std::vector<BoundaryFace<dim>>           &faces,
+                    const std::vector<SurfaceFace<dim>>            &surface,
+                    const Loads<dim>                               &loads,
+                    const dealii::SymmetricTensor<4, dim>          &stiffness);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
