@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/base/rigid_body_motions.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -68,17 +67,11 @@ namespace perideal
       for (unsigned int b = 0; b < n_motions; ++b)
         total(a, b) = dealii::Utilities::MPI::sum(gram[a][b], communicator);
 
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(total);
-    const double                                largest = eigen.eigenvalues()[n_motions - 1];
-    std::vector<Coefficients>                   result;
-    for (unsigned int k = 0; k < n_motions; ++k)
-      if (eigen.eigenvalues()[k] <= 1e-10 * largest)
-        {
-          Coefficients combination;
-          for (unsigned int a = 0; a < n_motions; ++a)
-            combination[a] = eigen.eigenvectors()(a, k);
-          result.push_back(combination);
-        }
+    const PseudoInverse<Matrix> inverse(total, 1e-10);
+    std::vector<Coefficients>   result(inverse.n_null());
+    for (std::size_t k = 0; k < result.size(); ++k)
+      for (unsigned int a = 0; a < n_motions; ++a)
+        result[k][a] = inverse.null_vector(k)[a];
     return result;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/face_tractions.h>
 
@@ -11,16 +12,6 @@ namespace perideal
   namespace
   {
     using Matrix = dealii::SymmetricTensor<2, 3>;
-
-    /// Pseudo-inverse; eigenvalues that rounding makes of zero are zero.
-    dealii::Tensor<2, 3> invert(const Matrix &inertia, const double scale)
-    {
-      dealii::Tensor<2, 3> result;
-      for (const auto &[value, vector] : dealii::eigenvectors(inertia))
-        if (value > 1e-10 * scale)
-          result += outer_product(vector, vector) / value;
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -61,7 +52,8 @@ namespace perideal
             const auto rows = Matrix::unrolled_to_component_indices(m);
             spread[rows] -= total * result.centroid[rows[0]] * result.centroid[rows[1]];
           }
-        result.inverse_inertia = invert(trace(spread) * dealii::unit_symmetric_tensor<3>() - spread, scale);
+        result.inverse_inertia =
+          pseudo_inverse(trace(spread) * dealii::unit_symmetric_tensor<3>() - spread, 1e-10 * scale);
         carriers.push_back(result);
       }
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/boundary/taylor_fit.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +10,10 @@ namespace perideal
 {
   namespace
   {
-    /// Singular values below this part of the largest one count as none.
-    constexpr double rank_tolerance = 1e-7;
+    /// Singular values below this part of the largest one count as none, and its square for their squares.
+    constexpr double rank_tolerance = 1e-7, square_tolerance = rank_tolerance * rank_tolerance;
     /// Of the rows of faces over those of members.
     constexpr double weight_of_faces = 2.;
-
-    /// Of a symmetric matrix of squares, so that its eigenvalues are those of singular values.
-    Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd &matrix)
-    {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
-      Eigen::VectorXd                                      inverted = eigen.eigenvalues();
-      const double smallest = rank_tolerance * rank_tolerance * inverted.maxCoeff();
-      for (double &value : inverted)
-        value = value > smallest ? 1. / value : 0.;
-      return eigen.eigenvectors() * inverted.asDiagonal() * eigen.eigenvectors().transpose();
-    }
   } // namespace
 
   template <int dim>
@@ -179,7 +167,8 @@ namespace perideal
         const Gradient d      = member.first.template head<dim>();
         normal += member.second * d * d.transpose();
       }
-    const Eigen::Matrix<double, dim, dim> inverse = pseudo_inverse(normal);
+    const Eigen::Matrix<double, dim, dim> inverse =
+      PseudoInverse<Eigen::MatrixXd>(normal, square_tolerance).matrix();
     for (std::size_t a = 1; a < result.nodes.size(); ++a)
       {
         const auto     member = monomials_of_member(i, result.nodes[a]);
@@ -213,23 +202,15 @@ namespace perideal
   }
 
   template <int dim>
-  void TaylorFit<dim>::invert(const std::vector<Equation> &equations,
-                              Eigen::MatrixXd             &inverse,
-                              Eigen::MatrixXd             &free)
+  RowInverse TaylorFit<dim>::invert(const std::vector<Equation> &equations)
   {
     constexpr unsigned int n = Basis::n_coefficients;
-    free.setIdentity(n, n);
     if (equations.empty())
-      return;
+      return {{}, Eigen::MatrixXd::Identity(n, n)};
     Eigen::MatrixXd rows(equations.size(), n);
     for (std::size_t k = 0; k < equations.size(); ++k)
       rows.row(k) = equations[k].row;
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(rank_tolerance);
-    const Eigen::Index rank = svd.rank();
-    inverse = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
-              svd.matrixU().leftCols(rank).transpose();
-    free = svd.matrixV().rightCols(n - rank);
+    return invert_rows(rows, rank_tolerance);
   }
 
   template <int dim>
@@ -255,10 +236,10 @@ namespace perideal
 
     // Coefficients A^+ b + Z y meet the exact rows A c = b with any y; the normal equations N c = r of all
     // others choose c = X r + (1 - X N) A^+ b.
-    const Square    normal = normal_matrix(i, weighed);
-    Eigen::MatrixXd inverse, free;
-    invert(exact, inverse, free);
-    const Square x = free * pseudo_inverse(free.transpose() * normal * free) * free.transpose();
+    const Square normal        = normal_matrix(i, weighed);
+    const auto [inverse, free] = invert(exact);
+    const PseudoInverse<Eigen::MatrixXd> of_free(free.transpose() * normal * free, square_tolerance);
+    const Square                         x = free * of_free.matrix() * free.transpose();
 
     for (std::size_t a = 1; a < result.nodes.size(); ++a)
       {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/least_squares.h>
 #include <perideal/materials/moment_conditions.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -153,22 +151,8 @@ namespace perideal
   typename MomentConditions<dim, order>::Vector
   MomentConditions<dim, order>::solve(const Vector &right_hand_side) const
   {
-    const Vector             scaled = scaling.cwiseProduct(right_hand_side);
-    const Eigen::LLT<Matrix> cholesky(gram);
-    // The diagonal of the factor bounds the smallest eigenvalue from above;
-    // a small one may hide a singular system, which needs the slow way.
-    if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().minCoeff() > 1e-3)
-      return scaling.cwiseProduct(cholesky.solve(scaled));
-
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
-    Vector                                      coordinates = eigen.eigenvectors().transpose() * scaled;
-    for (int k = 0; k < n_conditions; ++k)
-      {
-        const double value = eigen.eigenvalues()[k];
-        coordinates[k] =
-          value > rank_tolerance * eigen.eigenvalues()[n_conditions - 1] ? coordinates[k] / value : 0.;
-      }
-    return scaling.cwiseProduct(eigen.eigenvectors() * coordinates);
+    const Vector scaled = scaling.cwiseProduct(right_hand_side);
+    return scaling.cwiseProduct(solve_semidefinite(gram, scaled, rank_tolerance));
   }
 
   template <int dim, int order>

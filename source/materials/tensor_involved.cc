@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/materials/tensor_involved.h>
 
 #include <deal.II/base/numbers.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -83,16 +82,8 @@ namespace perideal
         m += family.volume[j] / (family.length_square[j] * std::sqrt(family.length_square[j])) * square *
              square.transpose();
       }
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
-    Vector                                      inverse = eigen.eigenvalues();
-    bool                                        is_full = true;
-    for (unsigned int p = 0; p < n; ++p)
-      {
-        const bool is_there = inverse[p] > 1e-10 * eigen.eigenvalues()[n - 1];
-        inverse[p]          = is_there ? 1. / inverse[p] : 0.;
-        is_full &= is_there;
-      }
-    const Matrix solve = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    const PseudoInverse<Matrix> inverse(m, 1e-10);
+    const Matrix                solve = inverse.matrix();
 
     const SymmetricTensor<4, dim> s = symmetrised(family.stiffness);
     for (unsigned int i = 0; i < dim; ++i)
@@ -105,7 +96,7 @@ namespace perideal
           for (unsigned int p = 0; p < n; ++p)
             d[i][k][axes(p)[0]][axes(p)[1]] = row[p] / kelvin(p);
         }
-    return is_full;
+    return inverse.n_null() == 0;
   }
 
   template <int dim>

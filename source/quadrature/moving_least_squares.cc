@@ -53,7 +53,7 @@ namespace perideal
     member.clear();
     weight.clear();
     basis_of_member.clear();
-    moments = 0.;
+    moments.clear();
     for (std::size_t k = 0; k < points.size(); ++k)
       {
         const dealii::Tensor<1, dim> distance = (points[k] - x) / radius;
@@ -65,9 +65,7 @@ namespace perideal
         weight.push_back(1. - d2 * (6. - d * (8. - 3. * d)));
         evaluate_basis(distance, basis);
         basis_of_member.insert(basis_of_member.end(), basis.begin(), basis.end());
-        for (unsigned int s = 0; s < n_terms; ++s)
-          for (unsigned int t = 0; t < n_terms; ++t)
-            moments(s, t) += weight.back() * basis[s] * basis[t];
+        moments.add(basis, weight.back());
       }
     if (member.size() < n_terms)
       {
@@ -76,18 +74,7 @@ namespace perideal
         return false;
       }
 
-    const double norm = moments.l1_norm();
-    // A matrix that is singular to round-off has no Cholesky factor.
-    double reciprocal_condition = 0;
-    try
-      {
-        moments.set_property(dealii::LAPACKSupport::symmetric);
-        moments.compute_cholesky_factorization();
-        reciprocal_condition = moments.reciprocal_condition_number(norm);
-      }
-    catch (const dealii::ExceptionBase &)
-      {
-      }
+    const double reciprocal_condition = moments.factorise();
     if (!(reciprocal_condition * largest_condition >= 1.))
       {
         std::ostringstream text;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/reconstruction/elastic_fit.h>
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <numeric>
@@ -163,8 +162,7 @@ namespace perideal
         const Powers &powers          = monomials()[k % n_monomials];
         equations(n_equations + k, k) = penalty(std::accumulate(powers.begin(), powers.end(), 0u));
       }
-    const Eigen::VectorXd coefficients =
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(equations).solve(values);
+    const Eigen::VectorXd coefficients = least_squares(equations, values);
 
     Result result;
     result.displacement = offset;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/reconstruction/linear_interpolation.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -22,21 +21,8 @@ namespace perideal
           distance[d] = point[d] - mean[d];
         covariance += distance * distance.transpose() / points.size();
       }
-    // Any root of the inverse does; the Cholesky factor is the cheapest.
     // Aspect ratios up to 1e5 count as solid.
-    const double             smallest = 1e-10 * covariance.trace();
-    const Eigen::LLT<Metric> factor(covariance);
-    const Metric             lower = factor.matrixL();
-    if (factor.info() == Eigen::Success && lower.diagonal().cwiseAbs2().minCoeff() > smallest)
-      {
-        metric = lower.template triangularView<Eigen::Lower>().solve(Metric::Identity());
-        return true;
-      }
-    const Eigen::SelfAdjointEigenSolver<Metric> spectrum(covariance);
-    metric = spectrum.eigenvectors().transpose();
-    for (int d = 0; d < dim; ++d)
-      metric.row(d) *= spectrum.eigenvalues()[d] > smallest ? 1. / std::sqrt(spectrum.eigenvalues()[d]) : 0.;
-    return false;
+    return inverse_root<dim>(covariance, 1e-10 * covariance.trace(), metric);
   }
 
   template <int dim>

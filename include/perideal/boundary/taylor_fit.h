@@ -14,6 +14,8 @@
 
 namespace perideal
 {
+  struct RowInverse;
+
   /// A component of the solution at a point of the surface, as boundary conditions give it.
   template <int dim>
   struct SurfaceValue
@@ -110,8 +112,7 @@ namespace perideal
     /// Of the normal equations of members and some rows.
     Square normal_matrix(const LocalIndex i, const std::vector<Equation> &equations) const;
     /// Pseudo-inverse of the rows, and a basis of what they leave free.
-    static void
-    invert(const std::vector<Equation> &equations, Eigen::MatrixXd &inverse, Eigen::MatrixXd &free);
+    static RowInverse invert(const std::vector<Equation> &equations);
 
     /// Monomials at a member, and its squared weight.
     std::pair<typename Basis::Monomials, double> monomials_of_member(const LocalIndex i,

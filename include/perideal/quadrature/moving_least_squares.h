@@ -2,9 +2,9 @@
 #ifndef perideal_quadrature_moving_least_squares_h
 #define perideal_quadrature_moving_least_squares_h
 
+#include <perideal/base/least_squares.h>
+
 #include <deal.II/base/point.h>
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
 
 #include <string>
 #include <vector>
@@ -51,8 +51,8 @@ namespace perideal
     /// Largest miss of the reproducing conditions.
     double consistency_error() const;
 
-    dealii::LAPACKFullMatrix<double> moments;
-    dealii::Vector<double>           solution;
+    MomentMatrix           moments;
+    dealii::Vector<double> solution;
     /// Those within the radius: their numbers, weights W, and basis, n_terms a point.
     std::vector<unsigned int> member;
     std::vector<double>       weight, basis_of_member;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
 #include <perideal/operators/linear/polynomial_response.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 
@@ -168,8 +167,7 @@ namespace perideal
         const Map map   = divergence(units[u], 1., 1.);
         of_units.col(u) = Eigen::Map<const Eigen::VectorXd>(map.data(), size);
       }
-    const Eigen::VectorXd entries =
-      of_units.completeOrthogonalDecomposition().solve(sum.head(size) / sum[size]);
+    const Eigen::VectorXd           entries = least_squares(of_units, sum.head(size) / sum[size]);
     dealii::SymmetricTensor<4, dim> result;
     for (std::size_t u = 0; u < units.size(); ++u)
       result += entries[u] * units[u];
