@@ -129,7 +129,7 @@ namespace perideal
     {
       const ModelParameters &model   = parameters.model;
       const bool             springs = model.model == "bond based" || model.model == "ordinary";
-      if (parameters.quadrature.scheme != "one point" ||
+      if (parameters.quadrature.counts_parts() ||
           !(springs || model.form == "paper" || model.form == "one point"))
         return;
       const std::string advice = "take Quadrature/Scheme = partial volume | exact, or Material/Form = " +
@@ -237,7 +237,7 @@ namespace perideal
         "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
         "into it");
     const double nu     = parameters.material.body.poisson_ratio;
-    const bool   stress = dim == 2 && parameters.material.assumption == "plane stress";
+    const bool   stress = dim == 2 && parameters.material.assumption == PlaneAssumption::plane_stress;
     if (!stress && nu > 0.45)
       result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
     if (scene.family_counts.singular > 0)

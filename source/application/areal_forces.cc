@@ -83,10 +83,10 @@ namespace perideal
         return model ? model->pair_force(solid_of(id), horizon, kinematics) : PairForce<dim>();
       });
     for (std::size_t k = 0; k < result->size(); ++k)
-      if (result->rule(k) == "bonds" && parameters.quadrature.has_gauss_points())
+      if (result->rule(k) == ArealForceRule::bonds && parameters.quadrature.has_gauss_points())
         throw InputError("bonds between Gauss points are no bonds between nodes")
           .parameter("Areal force densities/" + result->name(k) + "/Rule")
-          .given(points[k].rule)
+          .given(name_of(points[k].rule))
           .allowed("line, in one material; or set another Quadrature/Scheme");
     return result;
   }
@@ -110,7 +110,8 @@ namespace perideal
                         tractions[k][d]);
             entry["traction"].push_back(tractions[k][d]);
           }
-        entry["rule"] = points.rule(k) == "bonds" && by_strain ? "stress" : points.rule(k);
+        entry["rule"] =
+          points.rule(k) == ArealForceRule::bonds && by_strain ? "stress" : name_of(points.rule(k));
       }
     return result;
   }

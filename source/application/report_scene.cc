@@ -62,7 +62,7 @@ namespace perideal
     result["nodes"]      = scene.nodes->n_global;
     result["bonds"]      = scene.families->n_bonds();
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
-    result["quadrature"] = parameters.quadrature.scheme;
+    result["quadrature"] = name_of(parameters.quadrature.scheme);
     result["model"]      = parameters.model.model;
     result["variant"]    = parameters.model.has_forms() ? parameters.model.form : "uncorrected";
     result["families"]   = {{"fallback", scene.family_counts.fallback},
@@ -99,9 +99,9 @@ namespace perideal
 
   bool has_contact(const SceneParameters &parameters)
   {
-    if (parameters.contact.enabled == "automatic")
+    if (parameters.contact.enabled == ContactChoice::automatic)
       return can_break(parameters) || !parameters.precracks.cracks.empty();
-    return parameters.contact.enabled == "true";
+    return parameters.contact.enabled == ContactChoice::yes;
   }
 
   template <int dim>
@@ -156,11 +156,12 @@ namespace perideal
         << " spacings, influence " << parameters.model.influence_function << '\n'
         << "bonds       " << grouped(scene.families->n_bonds()) << ", neighbours a node " << statistics.min
         << " / " << std::setprecision(4) << statistics.mean << " / " << statistics.max << " (min/mean/max)"
-        << (parameters.quadrature.counts_parts() ? ", volumes by " + parameters.quadrature.scheme : "")
+        << (parameters.quadrature.counts_parts() ? ", volumes by " + name_of(parameters.quadrature.scheme) :
+                                                   "")
         << '\n'
         << "model       " << parameters.model.model
         << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "") << ", "
-        << (dim == 3 ? std::string("3-D") : parameters.material.assumption) << '\n';
+        << (dim == 3 ? std::string("3-D") : name_of(parameters.material.assumption)) << '\n';
     const FamilyCounts &counts = scene.family_counts;
     out << "families    " << grouped(counts.fallback) << " with fallback weights, "
         << grouped(counts.singular) << " miss a moment condition (singular), " << grouped(counts.indefinite)
@@ -184,7 +185,7 @@ namespace perideal
     if (scene.no_fail_zones)
       out << "no failure  at the bonds of " << grouped(scene.n_no_fail_nodes) << " nodes\n";
     if (scene.linear_solver)
-      out << "solver      " << parameters.solver.name << ", " << scene.linear_solver->name() << '\n';
+      out << "solver      " << name_of(parameters.solver.name) << ", " << scene.linear_solver->name() << '\n';
     if (parameters.solver.is_relaxation())
       out << "solver      dynamic relaxation in " << parameters.solver.load_steps << " load step(s)\n";
     if (parameters.solver.is_quasi_static())

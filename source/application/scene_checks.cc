@@ -30,7 +30,7 @@ namespace perideal
       if (!properties.symmetry.is_isotropic() && !model.takes_any_symmetry())
         throw InputError("this model is one of isotropic materials")
           .parameter(properties.symmetry.section + "/Symmetry")
-          .given(properties.symmetry.name)
+          .given(name_of(properties.symmetry.name))
           .allowed("isotropic; or set Material/Model = tensor involved | correspondence");
     };
     check_failure();
@@ -57,23 +57,23 @@ namespace perideal
         .allowed("1 for Displacement treatment = " + name_of(treatment))
         .hint("set Boundary conditions/Displacement treatment = layer");
     // The consistent form leaves the choice to the mesh.
-    if (nodes.horizon_shape == "automatic" && !consistent)
-      nodes.horizon_shape = "sphere";
-    if (nodes.horizon_shape == "cell" && !consistent)
+    if (nodes.horizon_shape == HorizonShape::automatic && !consistent)
+      nodes.horizon_shape = HorizonShape::sphere;
+    if (nodes.horizon_shape == HorizonShape::cell && !consistent)
       throw InputError("the weights of this model are those of spheres")
         .parameter("Nodes/Horizon shape")
-        .given(nodes.horizon_shape)
+        .given(name_of(nodes.horizon_shape))
         .allowed("automatic | sphere; or set Material/Form = consistent");
     if (quadrature.counts_parts() && consistent)
       throw InputError(
         "the bonds of the consistent form only stabilise it, for which their whole volumes serve")
         .parameter("Quadrature/Scheme")
-        .given(quadrature.scheme)
+        .given(name_of(quadrature.scheme))
         .allowed("one point; or set Material/Form = energy | paper, or another Material/Model");
     if (loads.has_mirror() && quadrature.needs_cells())
       throw InputError("mirrored nodes have no cells, of which this scheme counts the parts")
         .parameter("Quadrature/Scheme")
-        .given(quadrature.scheme)
+        .given(name_of(quadrature.scheme))
         .allowed("one point | cubic cell | partial volume with Displacement treatment = mirror");
     if (loads.has_mirror() && consistent)
       throw InputError("mirrored nodes have no cells, which the consistent form needs")
@@ -91,7 +91,7 @@ namespace perideal
     if (material.has_criterion() && !by_stress)
       throw InputError("the bonds of this model break by stretch")
         .parameter("Material/Failure criterion")
-        .given(material.failure_criterion)
+        .given(name_of(material.failure_criterion))
         .allowed("none for Model = " + model.model)
         .hint("set Material/Fracture energy or Critical stretch");
     const auto check = [&](const MaterialProperties &properties, const std::string &section) {
@@ -118,24 +118,23 @@ namespace perideal
         .parameter("Material/Boundary compensation")
         .given(model.boundary_compensation)
         .allowed("none with Displacement treatment = mirror");
-    if (nodes.perturbation > 0 &&
-        (quadrature.scheme == "cubic cell" || quadrature.scheme == "partial volume"))
+    if (nodes.perturbation > 0 && quadrature.needs_squares())
       throw InputError("this scheme takes cells for squares or cubes about their nodes, which are elsewhere")
         .parameter("Quadrature/Scheme")
-        .given(quadrature.scheme)
+        .given(name_of(quadrature.scheme))
         .allowed("one point | adaptive | exact | gauss points with Nodes/Perturbation");
     if (!quadrature.has_gauss_points())
       return;
     const auto complain = [this](const std::string &what) {
       throw InputError("Gauss points serve springs in statics only, " + what)
         .parameter("Quadrature/Scheme")
-        .given(quadrature.scheme)
+        .given(name_of(quadrature.scheme))
         .hint("choose another scheme");
     };
     if (model.model != "bond based")
       complain("not Material/Model = " + model.model);
     if (solver.is_dynamic() || solver.is_nonlinear_static())
-      complain("not Solver/Name = " + solver.name);
+      complain("not Solver/Name = " + name_of(solver.name));
     if (loads.has_mirror())
       complain("and mirrored nodes have no cells");
   }
@@ -169,18 +168,18 @@ namespace perideal
     if (solver.is_dynamic() || solver.is_relaxation())
       throw InputError("the correspondence model is one of statics, by tangents")
         .parameter("Solver/Name")
-        .given(solver.name)
+        .given(name_of(solver.name))
         .allowed("static | quasi static for Material/Model = correspondence");
     if (model.law != "linear elastic" && !solver.is_quasi_static())
       throw InputError("large strain is sought along load steps")
         .parameter("Material/Law")
         .given(model.law)
-        .allowed("linear elastic for Solver/Name = " + solver.name)
+        .allowed("linear elastic for Solver/Name = " + name_of(solver.name))
         .hint("set Solver/Name = quasi static");
     if (quadrature.has_gauss_points())
       throw InputError("Gauss points serve springs only")
         .parameter("Quadrature/Scheme")
-        .given(quadrature.scheme)
+        .given(name_of(quadrature.scheme))
         .allowed("one point | cubic cell | partial volume for Material/Model = correspondence");
     if (model.is_consistent() && (material.has_criterion() || !precracks.cracks.empty()))
       throw InputError("the consistent form takes gradients from faces, which no crack cuts")
@@ -220,11 +219,11 @@ namespace perideal
       model.model == "bond based" || (model.is_tensor_involved() && model.form == "one point");
     const bool not_whole = can_break(*this) || !precracks.cracks.empty();
     for (const ArealForceText &text : areal_forces.points)
-      if (text.rule == "line" && (!of_ends || not_whole))
+      if (text.rule == ArealForceRule::line && (!of_ends || not_whole))
         throw InputError(of_ends ? "the line takes all bonds for whole, and some may not be" :
                                    "the line needs bonds that know only their own ends")
           .parameter("Areal force densities/" + text.name + "/Rule")
-          .given(text.rule)
+          .given(name_of(text.rule))
           .allowed(of_ends ?
                      "automatic | bonds where bonds are cut or break" :
                      "automatic | bonds for this model; or set Material/Model = bond based, or = tensor "
@@ -309,7 +308,7 @@ namespace perideal
       complain("No-fail zones/" + no_fail.zones.front().name);
     if (model.after_the_cut())
       complain("Material/Multipliers");
-    if (contact.enabled == "true")
+    if (contact.enabled == ContactChoice::yes)
       complain("Contact/Enabled");
     if (solver.relative_damping > 0)
       complain("Solver/Relative damping");

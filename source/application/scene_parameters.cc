@@ -35,8 +35,7 @@ namespace perideal
                       "as stiff as whole "
                       "families are by their quadrature, which shows what boundary conditions alone are off "
                       "by (one material, "
-                      "regular meshes)",
-                      Selection("material|families"));
+                      "regular meshes)");
     prm.add_parameter(
       "Reference mesh",
       reference_mesh,

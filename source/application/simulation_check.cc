@@ -50,7 +50,7 @@ namespace perideal
         else if (const double strength = properties_of(id).tensile_strength; strength > 0)
           // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at r = E G/(2 pi
           // f^2).
-          screen << parameters.material.failure_criterion << ", " << short_number(strength)
+          screen << name_of(parameters.material.failure_criterion) << ", " << short_number(strength)
                  << " Pa; at half the largest horizon, " << short_number(0.5 * largest_horizon)
                  << " m, before a crack it stands for a fracture energy of "
                  << short_number(dealii::numbers::PI * largest_horizon * strength * strength /

@@ -153,11 +153,11 @@ namespace perideal
       for (LocalIndex i = 0; i < mass.size(); ++i)
         mass[i] = properties_of(scene.nodes->material[i]).density * scene.nodes->volume[i];
     }
-    const bool verlet         = parameters.solver.integrator == "velocity verlet";
-    summary["solver"]["name"] = "explicit dynamics, " + parameters.solver.integrator;
+    const bool verlet         = parameters.solver.integrator == Integrator::velocity_verlet;
+    summary["solver"]["name"] = "explicit dynamics, " + name_of(parameters.solver.integrator);
     announce("time        " + short_number(parameters.solver.end_time) + " s in " +
              std::to_string(std::lround(parameters.solver.end_time / time_step)) + " steps of " +
-             short_number(time_step) + " s, " + parameters.solver.integrator + "\n");
+             short_number(time_step) + " s, " + name_of(parameters.solver.integrator) + "\n");
     open_outputs();
 
     ExplicitDynamics<dim> dynamics(*scene.force,

@@ -278,17 +278,18 @@ namespace perideal
                                                             *scene.system,
                                                             scene.families->n_bonds(),
                                                             parameters.model.is_consistent()));
-    if (choice.preconditioner == "auxiliary")
+    if (choice.preconditioner == PreconditionerName::auxiliary)
       {
-        if (choice.auxiliary_mesh == "parent")
+        if (choice.auxiliary_mesh == AuxiliaryMesh::parent)
           scene.auxiliary_fem =
             std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads, create_parent_mesh(*scene.mesh));
         else
           scene.auxiliary_fem = std::make_unique<ElasticFem<dim>>(*scene.mesh, scene.loads);
         scene.auxiliary_fem->assemble(scene.solids, 0.);
       }
-    summary["solver"]["preconditioner"] = choice.preconditioner;
-    summary["solver"]["auxiliary_mesh"] = choice.auxiliary_mesh;
+    summary["solver"]["preconditioner"] = name_of(choice.preconditioner);
+    summary["solver"]["auxiliary_mesh"] =
+      choice.auxiliary_mesh ? name_of(*choice.auxiliary_mesh) : std::string();
     return choice;
   }
 

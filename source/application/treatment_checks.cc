@@ -48,8 +48,8 @@ namespace perideal
       complain("nodes on the surface have no cells, which the consistent form needs",
                "automatic | face value | layer | reference for the consistent form");
     if (quadrature.has_gauss_points() || quadrature.needs_cells())
-      complain("nodes on the surface have no cells, of which Quadrature/Scheme = " + quadrature.scheme +
-                 " counts the parts",
+      complain("nodes on the surface have no cells, of which Quadrature/Scheme = " +
+                 name_of(quadrature.scheme) + " counts the parts",
                others + "; or Quadrature/Scheme = one point | cubic cell | partial volume");
     if (model.compensates())
       complain("bonds are stiffened for what they lack at the surface, where these nodes are",
@@ -78,8 +78,8 @@ namespace perideal
       complain("ghosts meet displacements and tractions together, and displacements have the treatment " +
                  name_of(loads.displacement_treatment),
                "set Boundary conditions/Treatment = taylor ghosts instead of either");
-    if (solver.name != "static")
-      complain("what ghosts do follows from linear statics, not Solver/Name = " + solver.name,
+    if (!solver.is_linear_static())
+      complain("what ghosts do follows from linear statics, not Solver/Name = " + name_of(solver.name),
                "choose another treatment for this solver");
     if (model.is_consistent())
       complain("the consistent form takes its boundary conditions at faces",
@@ -97,9 +97,9 @@ namespace perideal
       throw InputError("the factor chi/(chi-1) vanishes or is infinite")
         .parameter("Boundary conditions/Transfer chi")
         .allowed("numbers other than 0 and 1");
-    if (loads.transfer_lambda != 0 && solver.name != "static")
+    if (loads.transfer_lambda != 0 && !solver.is_linear_static())
       throw InputError("what the places of held faces do is known in linear statics")
         .parameter("Boundary conditions/Transfer lambda")
-        .allowed("0 for Solver/Name = " + solver.name);
+        .allowed("0 for Solver/Name = " + name_of(solver.name));
   }
 } // namespace perideal

@@ -3,16 +3,15 @@
 
 namespace perideal
 {
-  StressCriterion::StressCriterion(const std::string &name,
-                                   const double       tensile_strength,
-                                   const double       compressive_strength)
+  StressCriterion::StressCriterion(const FailureCriterion criterion,
+                                   const double           tensile_strength,
+                                   const double           compressive_strength)
     : per_tension(1. / tensile_strength)
-    , per_compression(name == "Mohr-Coulomb" ? 1. / compressive_strength : 0.)
+    , per_compression(criterion == FailureCriterion::mohr_coulomb ? 1. / compressive_strength : 0.)
   {
-    Assert(name == "Mohr-Coulomb" || name == "maximum tensile stress",
-           dealii::ExcMessage("unknown criterion " + name));
+    Assert(criterion != FailureCriterion::none, dealii::ExcMessage("a criterion must be named"));
     Assert(tensile_strength > 0, dealii::ExcMessage("a strength must be positive"));
-    Assert(name != "Mohr-Coulomb" || compressive_strength >= tensile_strength,
+    Assert(criterion != FailureCriterion::mohr_coulomb || compressive_strength >= tensile_strength,
            dealii::ExcMessage("the angle of internal friction would be negative"));
   }
 

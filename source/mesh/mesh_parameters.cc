@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/input_errors.h>
 #include <perideal/base/registry.h>
 #include <perideal/mesh/generators.h>
 #include <perideal/mesh/mesh_parameters.h>
@@ -85,31 +86,32 @@ namespace perideal
 
   void MeshParameters::check() const
   {
+    InputErrorCollector errors;
     if (file.empty() && generator.empty())
-      throw InputError("the scene has no mesh: give Mesh/File or Mesh/Generator")
-        .parameter("Mesh/Generator")
-        .allowed(join_choices(generator_names()));
+      errors.add(InputError("the scene has no mesh: give Mesh/File or Mesh/Generator")
+                   .parameter("Mesh/Generator")
+                   .allowed(join_choices(generator_names())));
     if (!file.empty() && !generator.empty())
-      throw InputError("the scene has two meshes: give either Mesh/File or Mesh/Generator")
-        .parameter("Mesh/File")
-        .given("File = " + file + " and Generator = " + generator)
-        .hint("empty the one that is not meant: set Generator =");
+      errors.add(InputError("the scene has two meshes: give either Mesh/File or Mesh/Generator")
+                   .parameter("Mesh/File")
+                   .given("File = " + file + " and Generator = " + generator)
+                   .hint("empty the one that is not meant: set Generator ="));
     if (!(thickness > 0))
-      throw InputError("the thickness must be positive")
-        .parameter("Mesh/Thickness")
-        .allowed("a number > 0 [m]");
+      errors.add(
+        InputError("the thickness must be positive").parameter("Mesh/Thickness").allowed("a number > 0 [m]"));
     if (refine_times > 0 && refine_at.empty())
-      throw InputError("no boundary is named to refine at")
-        .parameter("Mesh/Refine at")
-        .allowed("boundary names or ids, or Refine times = 0");
+      errors.add(InputError("no boundary is named to refine at")
+                   .parameter("Mesh/Refine at")
+                   .allowed("boundary names or ids, or Refine times = 0"));
     if (refine_times == 0 && !refine_at.empty())
-      throw InputError("boundaries are named to refine at, but not how often")
-        .parameter("Mesh/Refine times")
-        .allowed("1 to 12, or an empty Refine at");
+      errors.add(InputError("boundaries are named to refine at, but not how often")
+                   .parameter("Mesh/Refine times")
+                   .allowed("1 to 12, or an empty Refine at"));
     if (generator != "box" && !corner.empty())
-      throw InputError("the Corner is one of the generator box").parameter("Mesh/Corner");
+      errors.add(InputError("the Corner is one of the generator box").parameter("Mesh/Corner"));
     if (!generator.empty() && !cylinders.empty())
-      throw InputError("Cylinders belong to a mesh File; generators know their curved boundaries")
-        .parameter("Mesh/Cylinders");
+      errors.add(InputError("Cylinders belong to a mesh File; generators know their curved boundaries")
+                   .parameter("Mesh/Cylinders"));
+    errors.raise();
   }
 } // namespace perideal

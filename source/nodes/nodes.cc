@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
+#include <perideal/base/input_errors.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/nodes/cell_keys.h>
 #include <perideal/nodes/curve_order.h>
@@ -73,8 +73,7 @@ namespace perideal
                       horizon_shape,
                       "sphere; or cell: an ellipsoid with as many cells along each of its axes, for cells "
                       "that are long in one direction (consistent form only); automatic: cell for the "
-                      "consistent form where the mean aspect ratio of the cells is above 3, else sphere",
-                      dealii::Patterns::Selection("automatic|sphere|cell"));
+                      "consistent form where the mean aspect ratio of the cells is above 3, else sphere");
     prm.add_parameter("Share equal families",
                       share_equal_families,
                       "Whether families that are equal but for rounding, as in structured parts of a mesh, "
@@ -92,16 +91,18 @@ namespace perideal
 
   void NodeParameters::check() const
   {
+    InputErrorCollector errors;
     // Below one spacing a node of a uniform mesh reaches no neighbour at all.
     if (!(horizon_factor >= 1.01 && horizon_factor <= 20))
-      throw InputError("this horizon makes no families")
-        .parameter("Nodes/Horizon factor")
-        .allowed("1.01 to 20; 3.01 is usual");
+      errors.add(InputError("this horizon makes no families")
+                   .parameter("Nodes/Horizon factor")
+                   .allowed("1.01 to 20; 3.01 is usual"));
     // A convex quadrilateral of any shape keeps its node up to 2/3; the thinnest, a triangle, not beyond.
     if (!(perturbation >= 0 && perturbation <= 0.5))
-      throw InputError("nodes must stay within their cells, whatever the shape of these")
-        .parameter("Nodes/Perturbation")
-        .allowed("0 to 0.5, which moves nodes by up to a quarter of an edge");
+      errors.add(InputError("nodes must stay within their cells, whatever the shape of these")
+                   .parameter("Nodes/Perturbation")
+                   .allowed("0 to 0.5, which moves nodes by up to a quarter of an edge"));
+    errors.raise();
   }
 
   template <int dim>
@@ -241,8 +242,8 @@ namespace perideal
     mean_aspect_ratio = dealii::Utilities::MPI::sum(aspect_ratios, all) /
                         dealii::Utilities::MPI::sum(static_cast<double>(this->shape.size()), all);
     // On stretched cells spheres reach across many cells one way and none the other.
-    if (parameters.horizon_shape == "sphere" ||
-        (parameters.horizon_shape == "automatic" && mean_aspect_ratio <= 3.))
+    if (parameters.horizon_shape == HorizonShape::sphere ||
+        (parameters.horizon_shape == HorizonShape::automatic && mean_aspect_ratio <= 3.))
       this->shape.clear();
   }
 

@@ -33,8 +33,7 @@ namespace perideal
           "strain at nodes); line: the integral over all bonds through the plane, of the "
           "interpolated displacement and to round-off, for models whose bonds know only their "
           "own ends (bond based; tensor involved, one point) in bodies of one material "
-          "thereabouts whose bonds are whole; automatic: line where it can be, else bonds",
-          dealii::Patterns::Selection("automatic|line|bonds"));
+          "thereabouts whose bonds are whole; automatic: line where it can be, else bonds");
         prm.leave_subsection();
       }
     prm.leave_subsection();

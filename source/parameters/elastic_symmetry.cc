@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/input_errors.h>
 #include <perideal/parameters/elastic_symmetry.h>
 #include <perideal/parameters/inherited_parameter.h>
 #include <perideal/parameters/parameter_file.h>
@@ -39,7 +40,7 @@ namespace perideal
       "Elastic symmetry. isotropic: from Young modulus and Poisson ratio. cubic, transversely isotropic "
       "(about axis 1, the fibre), orthotropic: from Young moduli, Poisson ratios and Shear moduli. "
       "anisotropic: from Stiffness",
-      Selection("isotropic|cubic|transversely isotropic|orthotropic|anisotropic"));
+      *Tools::Convert<SymmetryName>::to_pattern());
     declare(
       "Young moduli",
       young_moduli,
@@ -83,18 +84,21 @@ namespace perideal
     std::vector<std::string> used = {"Young moduli", "Poisson ratios", "Shear moduli", "Orientation"};
     if (is_isotropic())
       used = {"Young modulus", "Poisson ratio"};
-    else if (name == "anisotropic")
+    else if (name == SymmetryName::anisotropic)
       {
         used = {"Stiffness", "Orientation"};
         if (stiffness.size() != 6)
           used.push_back("Voigt order");
       }
+    InputErrorCollector errors;
     for (const std::string &parameter : given)
       if (std::find(used.begin(), used.end(), parameter) == used.end())
-        throw InputError("the " + name + " symmetry has no use for this")
-          .parameter(section + "/" + parameter)
-          .hint(parameter == "Voigt order" ? "it says what the rows of a Stiffness of 21 numbers stand for" :
-                                             "remove it, or choose another " + section + "/Symmetry");
+        errors.add(InputError("the " + name_of(name) + " symmetry has no use for this")
+                     .parameter(section + "/" + parameter)
+                     .hint(parameter == "Voigt order" ?
+                             "it says what the rows of a Stiffness of 21 numbers stand for" :
+                             "remove it, or choose another " + section + "/Symmetry"));
+    errors.raise();
   }
 
   InputError ElasticSymmetry::complaint(const std::string         &problem,

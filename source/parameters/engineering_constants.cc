@@ -37,11 +37,11 @@ namespace perideal
     };
 
     /// All constants of a symmetry in space.
-    ConstantNames names_in_space(const std::string &symmetry)
+    ConstantNames names_in_space(const SymmetryName symmetry)
     {
-      if (symmetry == "cubic")
+      if (symmetry == SymmetryName::cubic)
         return {"E", "nu", "G"};
-      if (symmetry == "transversely isotropic")
+      if (symmetry == SymmetryName::transversely_isotropic)
         return {"E1, E2", "nu12, nu23", "G12"};
       return {"E1, E2, E3", "nu12, nu13, nu23", "G12, G13, G23"};
     }
@@ -63,7 +63,8 @@ namespace perideal
       const ConstantNames in_space = names_in_space(symmetry.name);
       if (in_space.all_fit(symmetry))
         return false;
-      const bool may_be_plane = symmetry.name != "cubic" && assumption == PlaneAssumption::plane_stress;
+      const bool may_be_plane =
+        symmetry.name != SymmetryName::cubic && assumption == PlaneAssumption::plane_stress;
       if (may_be_plane && names_in_plane.all_fit(symmetry))
         return true;
       const auto        fits = in_space.fit(symmetry);
@@ -71,9 +72,9 @@ namespace perideal
         names_in_plane.young + "; " + names_in_plane.poisson + "; " + names_in_plane.shear;
       const auto misfit = [&](const char *parameter, const Numbers &given, const std::string &names) {
         return symmetry
-          .complaint("the " + symmetry.name + " symmetry needs other constants", parameter, given)
+          .complaint("the " + name_of(symmetry.name) + " symmetry needs other constants", parameter, given)
           .allowed(names)
-          .hint(symmetry.name == "cubic" ? "" : "plane stress alone can do with " + in_plane);
+          .hint(symmetry.name == SymmetryName::cubic ? "" : "plane stress alone can do with " + in_plane);
       };
       if (!fits[0])
         throw misfit("Young moduli", symmetry.young_moduli, in_space.young + " [Pa]");
@@ -97,9 +98,9 @@ namespace perideal
       // Uncoupled across the plane; the stiffness there has no influence on what happens in it.
       if (in_plane)
         return {{{e[0], e[1], e[1]}}, nu[0], 0., 0., {{1. / g[0], 1. / g[0], 1. / g[0]}}};
-      if (symmetry.name == "cubic")
+      if (symmetry.name == SymmetryName::cubic)
         return {{{e[0], e[0], e[0]}}, nu[0], nu[0], nu[0], {{1. / g[0], 1. / g[0], 1. / g[0]}}};
-      if (symmetry.name == "transversely isotropic")
+      if (symmetry.name == SymmetryName::transversely_isotropic)
         // Across the fibre it is isotropic.
         return {
           {{e[0], e[1], e[1]}}, nu[0], nu[0], nu[1], {{1. / g[0], 1. / g[0], 2. * (1. + nu[1]) / e[1]}}};

@@ -109,8 +109,9 @@ namespace perideal
   ElasticSolid<dim> make_solid(const ElasticSymmetry &symmetry, const PlaneAssumption assumption)
   {
     Assert(!symmetry.is_isotropic(), dealii::ExcMessage("an isotropic solid has no axes"));
-    const auto in_own_axes = symmetry.name == "anisotropic" ? from_stiffness<dim>(symmetry) :
-                                                              engineering_stiffness(symmetry, assumption);
+    const auto in_own_axes = symmetry.name == SymmetryName::anisotropic ?
+                               from_stiffness<dim>(symmetry) :
+                               engineering_stiffness(symmetry, assumption);
     const auto turned =
       dealii::Physics::Transformations::basis_transformation(in_own_axes, rotation<dim>(symmetry));
     check_stiffness<dim>(symmetry, turned, assumption);

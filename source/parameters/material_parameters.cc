@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
+#include <perideal/base/input_errors.h>
 #include <perideal/parameters/inherited_parameter.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
@@ -44,61 +44,60 @@ namespace perideal
 
     void check_properties(const MaterialProperties &properties,
                           const std::string        &section,
-                          const std::string        &assumption)
+                          const PlaneAssumption     assumption)
     {
-      properties.symmetry.check();
+      InputErrorCollector errors;
+      errors.collect([&] { properties.symmetry.check(); });
       const bool is_isotropic = properties.symmetry.is_isotropic();
       if (is_isotropic && !(properties.young_modulus > 0))
-        throw InputError("Young's modulus must be positive")
-          .parameter(section + "/Young modulus")
-          .allowed("a number > 0");
+        errors.add(InputError("Young's modulus must be positive")
+                     .parameter(section + "/Young modulus")
+                     .allowed("a number > 0"));
       if (is_isotropic && !(properties.poisson_ratio > -1 && properties.poisson_ratio < 0.5))
-        throw InputError("Poisson's ratio is outside the range of a stable elastic solid")
-          .parameter(section + "/Poisson ratio")
-          .allowed("-1 < nu < 0.5")
-          .hint(assumption == "plane stress" ? "" : "nu = 0.5 is incompressible: take a value such as 0.49");
+        errors.add(InputError("Poisson's ratio is outside the range of a stable elastic solid")
+                     .parameter(section + "/Poisson ratio")
+                     .allowed("-1 < nu < 0.5")
+                     .hint(assumption == PlaneAssumption::plane_stress ?
+                             "" :
+                             "nu = 0.5 is incompressible: take a value such as 0.49"));
       if (!(properties.density > 0))
-        throw InputError("the density must be positive")
-          .parameter(section + "/Density")
-          .allowed("a number > 0");
+        errors.add(
+          InputError("the density must be positive").parameter(section + "/Density").allowed("a number > 0"));
       if (!(properties.critical_stretch >= 0))
-        throw InputError("the critical stretch must not be negative")
-          .parameter(section + "/Critical stretch")
-          .allowed("a number >= 0");
+        errors.add(InputError("the critical stretch must not be negative")
+                     .parameter(section + "/Critical stretch")
+                     .allowed("a number >= 0"));
       if (properties.critical_stretch > 0 && properties.fracture_energy > 0)
-        throw InputError("fracture energy and critical stretch are both given")
-          .parameter(section + "/Critical stretch")
-          .hint("remove one of them: each follows from the other");
+        errors.add(InputError("fracture energy and critical stretch are both given")
+                     .parameter(section + "/Critical stretch")
+                     .hint("remove one of them: each follows from the other"));
       if (!(properties.fracture_energy >= 0))
-        throw InputError("the fracture energy must not be negative")
-          .parameter(section + "/Fracture energy")
-          .allowed("a number >= 0");
+        errors.add(InputError("the fracture energy must not be negative")
+                     .parameter(section + "/Fracture energy")
+                     .allowed("a number >= 0"));
       if (!(properties.tensile_strength >= 0))
-        throw InputError("the tensile strength must not be negative")
-          .parameter(section + "/Tensile strength")
-          .allowed("a number >= 0");
+        errors.add(InputError("the tensile strength must not be negative")
+                     .parameter(section + "/Tensile strength")
+                     .allowed("a number >= 0"));
       if (!(properties.compressive_strength >= 0))
-        throw InputError("the compressive strength must not be negative")
-          .parameter(section + "/Compressive strength")
-          .allowed("a number >= 0, the size of the stress");
+        errors.add(InputError("the compressive strength must not be negative")
+                     .parameter(section + "/Compressive strength")
+                     .allowed("a number >= 0, the size of the stress"));
+      errors.raise();
     }
   } // namespace
 
   void MaterialParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     prm.enter_subsection("Material");
-    prm.add_parameter("Assumption",
-                      assumption,
-                      "How a 2-D body stands in space; without meaning in 3-D",
-                      dealii::Patterns::Selection("plane stress|plane strain"));
+    prm.add_parameter("Assumption", assumption, "How a 2-D body stands in space; without meaning in 3-D");
     prm.add_parameter(
       "Failure criterion",
       failure_criterion,
       "By which stress bonds of Model = correspondence break, the mean of that at their ends: "
       "none; maximum tensile stress: where the largest principal stress reaches Tensile "
       "strength; Mohr-Coulomb: where sigma_1/f_t - sigma_3/f_c reaches 1, which has both "
-      "strengths. Principal stresses are those in space. Bonds of other models break by stretch",
-      dealii::Patterns::Selection("none|maximum tensile stress|Mohr-Coulomb"));
+      "strengths. Principal stresses are those in space. Bonds of other models break by stretch");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
@@ -111,13 +110,16 @@ namespace perideal
 
   void MaterialParameters::check(const int dim) const
   {
-    const auto check = [&](const MaterialProperties &material, const std::string &section) {
-      check_properties(material, section, assumption);
-      check_strengths(material, section);
-      if (dim == 2)
-        elastic_solid<2>(material);
-      else
-        elastic_solid<3>(material);
+    InputErrorCollector errors;
+    const auto          check = [&](const MaterialProperties &material, const std::string &section) {
+      errors.collect([&] { check_properties(material, section, assumption); });
+      errors.collect([&] { check_strengths(material, section); });
+      errors.collect([&] {
+        if (dim == 2)
+          elastic_solid<2>(material);
+        else
+          elastic_solid<3>(material);
+      });
     };
     check(body, "Material");
     bool has_strength = body.tensile_strength > 0;
@@ -127,36 +129,40 @@ namespace perideal
         has_strength = has_strength || group.second.tensile_strength > 0;
       }
     if (has_criterion() && !has_strength)
-      throw InputError("no material has the strength that this criterion holds stresses against")
-        .parameter("Material/Failure criterion")
-        .allowed("none without Material/Tensile strength");
+      errors.add(InputError("no material has the strength that this criterion holds stresses against")
+                   .parameter("Material/Failure criterion")
+                   .allowed("none without Material/Tensile strength"));
+    errors.raise();
   }
 
   void MaterialParameters::check_strengths(const MaterialProperties &material,
                                            const std::string        &section) const
   {
+    InputErrorCollector errors;
     if (!has_criterion() && (material.tensile_strength > 0 || material.compressive_strength > 0))
-      throw InputError("a strength is given, and nothing breaks by stress")
-        .parameter(section + (material.tensile_strength > 0 ? "/Tensile strength" : "/Compressive strength"))
-        .hint("set Material/Failure criterion, or remove it");
+      errors.add(InputError("a strength is given, and nothing breaks by stress")
+                   .parameter(section +
+                              (material.tensile_strength > 0 ? "/Tensile strength" : "/Compressive strength"))
+                   .hint("set Material/Failure criterion, or remove it"));
     if (has_criterion() && (material.fracture_energy > 0 || material.critical_stretch > 0))
-      throw InputError("bonds break either by stress or by stretch")
-        .parameter(section + (material.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
-        .allowed("0 for Failure criterion = " + failure_criterion);
+      errors.add(
+        InputError("bonds break either by stress or by stretch")
+          .parameter(section + (material.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
+          .allowed("0 for Failure criterion = " + name_of(failure_criterion)));
     // Weaker in compression, sin(phi) = (f_c - f_t)/(f_c + f_t) would be negative.
-    if (failure_criterion == "Mohr-Coulomb" && material.tensile_strength > 0 &&
+    if (failure_criterion == FailureCriterion::mohr_coulomb && material.tensile_strength > 0 &&
         !(material.compressive_strength >= material.tensile_strength))
-      throw InputError("the angle of internal friction follows from both strengths, and would be negative")
-        .parameter(section + "/Compressive strength")
-        .allowed("a number >= Tensile strength for Failure criterion = Mohr-Coulomb");
+      errors.add(
+        InputError("the angle of internal friction follows from both strengths, and would be negative")
+          .parameter(section + "/Compressive strength")
+          .allowed("a number >= Tensile strength for Failure criterion = Mohr-Coulomb"));
+    errors.raise();
   }
 
   template <int dim>
   ElasticSolid<dim> MaterialParameters::elastic_solid(const MaterialProperties &material) const
   {
-    const PlaneAssumption plane =
-      assumption == "plane strain" ? PlaneAssumption::plane_strain : PlaneAssumption::plane_stress;
-    const PlaneAssumption own = dim == 3 ? PlaneAssumption::solid : plane;
+    const PlaneAssumption own = dim == 3 ? PlaneAssumption::solid : assumption;
     if (material.symmetry.is_isotropic())
       return ElasticConstants{material.young_modulus, material.poisson_ratio, own};
     return make_solid<dim>(material.symmetry, own);

@@ -19,7 +19,7 @@ namespace perideal
     dealii::GridGenerator::subdivided_hyper_cube(
       mesh.triangulation, 2 * reach + 1, -0.5 - reach, 0.5 + reach);
     NodeParameters spheres = parameters;
-    spheres.horizon_shape  = "sphere";
+    spheres.horizon_shape  = HorizonShape::sphere;
     Nodes<dim> nodes(mesh, spheres);
     prepare_cells(quadrature, mesh, nodes);
     const Families<dim> families(nodes, create_volume_rule<dim>(quadrature));

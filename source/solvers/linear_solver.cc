@@ -109,8 +109,8 @@ namespace perideal
         return (symmetric             ? "cg, " :
                 system.is_symmetric() ? "gmres, " :
                                         "gmres (the operator is not symmetric), ") +
-               choice.preconditioner + " preconditioner" +
-               (choice.auxiliary_mesh == "parent" ? " on the parent mesh" : "") +
+               name_of(choice.preconditioner) + " preconditioner" +
+               (choice.auxiliary_mesh == AuxiliaryMesh::parent ? " on the parent mesh" : "") +
                (choice.reason.empty() ? "" : " (" + choice.reason + ")");
       }
 
@@ -159,7 +159,8 @@ namespace perideal
         , parameters(parameters)
       {
         assemble_matrix(system, matrix);
-        if (parameters.linear_solver != "direct" && parameters.preconditioner != "none")
+        if (parameters.linear_solver != LinearSolverName::direct &&
+            parameters.preconditioner != PreconditionerName::none)
           preconditioner.initialize(matrix,
                                     dealii::TrilinosWrappers::PreconditionBlockJacobi::AdditionalData(dim));
       }
@@ -174,7 +175,7 @@ namespace perideal
         result.residuals.push_back(1.);
         try
           {
-            if (parameters.linear_solver == "direct")
+            if (parameters.linear_solver == LinearSolverName::direct)
               {
                 dealii::TrilinosWrappers::SolverDirect direct(control);
                 direct.solve(matrix, solution, source);
@@ -188,13 +189,13 @@ namespace perideal
           }
         const double last = residual_norm(solution, source);
         result.residuals.push_back(last / first);
-        result.iterations = parameters.linear_solver == "direct" ? 1 : control.last_step();
+        result.iterations = parameters.linear_solver == LinearSolverName::direct ? 1 : control.last_step();
         // Trilinos judges by its recursive residual, which may lag a little.
         result.converged = last <= 10. * this->tolerance * first;
         return result;
       }
 
-      std::string name() const override { return parameters.linear_solver + ", assembled matrix"; }
+      std::string name() const override { return name_of(parameters.linear_solver) + ", assembled matrix"; }
 
     private:
       double residual_norm(const NodalVector &solution, const NodalVector &source) const
@@ -208,9 +209,10 @@ namespace perideal
       void iterate(dealii::SolverControl &control, NodalVector &solution, const NodalVector &source)
       {
         using namespace dealii::TrilinosWrappers;
-        const auto kind = parameters.linear_solver == "trilinos cg" ? SolverBase::cg : SolverBase::gmres;
+        const auto kind =
+          parameters.linear_solver == LinearSolverName::trilinos_cg ? SolverBase::cg : SolverBase::gmres;
         SolverBase solver(kind, control);
-        if (parameters.preconditioner == "none")
+        if (parameters.preconditioner == PreconditionerName::none)
           solver.solve(matrix, solution, source, PreconditionIdentity());
         else
           solver.solve(matrix, solution, source, preconditioner);
@@ -237,27 +239,28 @@ namespace perideal
           throw InputError("the assembled solvers cannot leave rigid-body motions free")
             .parameter("Solver/Linear solver")
             .allowed("automatic | cg | gmres for this scene");
-        if (parameters.linear_solver == "trilinos cg" && !system.is_symmetric())
+        if (parameters.linear_solver == LinearSolverName::trilinos_cg && !system.is_symmetric())
           throw InputError("the operator of this scene is not symmetric")
             .parameter("Solver/Linear solver")
             .allowed("automatic | gmres | trilinos gmres | direct");
         return std::make_unique<AssembledSolver<dim>>(parameters, system);
       }
-    if (parameters.linear_solver == "cg" && !system.is_symmetric())
+    if (parameters.linear_solver == LinearSolverName::cg && !system.is_symmetric())
       throw InputError("the operator of this scene is not symmetric")
         .parameter("Solver/Linear solver")
         .allowed("automatic | gmres | trilinos gmres | direct");
 
-    const bool symmetric =
-      parameters.linear_solver == "automatic" ? system.is_symmetric() : parameters.linear_solver == "cg";
-    const auto krylov = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
+    const bool symmetric = parameters.linear_solver == LinearSolverName::automatic ?
+                             system.is_symmetric() :
+                             parameters.linear_solver == LinearSolverName::cg;
+    const auto krylov    = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
       using Preconditioner = typename decltype(preconditioner)::element_type;
       return std::make_unique<KrylovSolver<dim, Preconditioner>>(
         parameters, choice, system, null_space, std::move(preconditioner), symmetric);
     };
-    if (choice.preconditioner == "none")
+    if (choice.preconditioner == PreconditionerName::none)
       return krylov(std::make_unique<dealii::PreconditionIdentity>());
-    if (choice.preconditioner == "block jacobi")
+    if (choice.preconditioner == PreconditionerName::block_jacobi)
       return krylov(std::make_unique<BlockJacobi<dim>>(system));
     Assert(fem != nullptr, dealii::ExcInternalError());
     return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem, surface));

@@ -96,9 +96,9 @@ namespace perideal
   }
 
   SolveEstimate
-  estimate_auxiliary(const SolveSize &size, const std::string &auxiliary_mesh, const double tolerance)
+  estimate_auxiliary(const SolveSize &size, const AuxiliaryMesh auxiliary_mesh, const double tolerance)
   {
-    const bool     parent = auxiliary_mesh == "parent";
+    const bool     parent = auxiliary_mesh == AuxiliaryMesh::parent;
     const double   cells  = parent ? size.parents : size.cells;
     const CellWork work   = cell_work(size.dim, parent);
     SolveEstimate  result;
@@ -115,42 +115,45 @@ namespace perideal
     result.preconditioner = parameters.preconditioner;
     if (parameters.assembles())
       {
-        if (parameters.linear_solver == "direct")
-          result.preconditioner = "none";
-        else if (parameters.preconditioner != "none")
-          result.preconditioner = "block jacobi";
+        if (parameters.linear_solver == LinearSolverName::direct)
+          result.preconditioner = PreconditionerName::none;
+        else if (parameters.preconditioner != PreconditionerName::none)
+          result.preconditioner = PreconditionerName::block_jacobi;
         return result;
       }
-    if (parameters.preconditioner == "block jacobi" || parameters.preconditioner == "none")
+    if (parameters.preconditioner == PreconditionerName::block_jacobi ||
+        parameters.preconditioner == PreconditionerName::none)
       return result;
 
-    if (parameters.auxiliary_mesh == "parent" && size.parents == 0)
+    if (parameters.auxiliary_mesh == AuxiliaryMesh::parent && size.parents == 0)
       throw InputError("no cell of this mesh has a parent: it was not refined")
         .parameter("Solver/Auxiliary mesh")
-        .given(parameters.auxiliary_mesh)
+        .given(name_of(parameters.auxiliary_mesh))
         .allowed("automatic | same for this mesh")
         .hint("halve Mesh/Cells and set Mesh/Refinements = 1");
-    const double tolerance = parameters.tolerance;
-    result.auxiliary_mesh  = parameters.auxiliary_mesh;
-    if (parameters.auxiliary_mesh == "automatic")
-      {
-        const bool parent =
-          size.parents > 0 && estimate_auxiliary(size, "parent", tolerance).total(parameters.load_steps) <
-                                estimate_auxiliary(size, "same", tolerance).total(parameters.load_steps);
-        result.auxiliary_mesh = parent ? "parent" : "same";
-      }
-    if (parameters.preconditioner == "auxiliary")
+    const double  tolerance = parameters.tolerance;
+    AuxiliaryMesh mesh      = parameters.auxiliary_mesh;
+    const auto    work      = [&](const AuxiliaryMesh of) {
+      return estimate_auxiliary(size, of, tolerance).total(parameters.load_steps);
+    };
+    if (mesh == AuxiliaryMesh::automatic)
+      mesh = size.parents > 0 && work(AuxiliaryMesh::parent) < work(AuxiliaryMesh::same) ?
+               AuxiliaryMesh::parent :
+               AuxiliaryMesh::same;
+    result.auxiliary_mesh = mesh;
+    if (parameters.preconditioner == PreconditionerName::auxiliary)
       return result;
 
-    const SolveEstimate auxiliary      = estimate_auxiliary(size, result.auxiliary_mesh, tolerance);
+    const SolveEstimate auxiliary      = estimate_auxiliary(size, mesh, tolerance);
     const SolveEstimate jacobi         = estimate_block_jacobi(size, tolerance);
     const double        work_auxiliary = auxiliary.total(parameters.load_steps),
                  work_jacobi           = jacobi.total(parameters.load_steps);
-    result.preconditioner              = work_jacobi < work_auxiliary ? "block jacobi" : "auxiliary";
+    result.preconditioner =
+      work_jacobi < work_auxiliary ? PreconditionerName::block_jacobi : PreconditionerName::auxiliary;
     const double       saved = std::max(work_jacobi, work_auxiliary) / std::min(work_jacobi, work_auxiliary);
     std::ostringstream reason;
     reason.precision(2);
-    if (result.preconditioner == "auxiliary")
+    if (result.preconditioner == PreconditionerName::auxiliary)
       reason << "estimated " << about(auxiliary.iterations) << " iterations; block jacobi would take about "
              << about(jacobi.iterations) << " and " << saved << " times the work";
     else
@@ -158,7 +161,7 @@ namespace perideal
         reason << "estimated " << about(jacobi.iterations)
                << " iterations; the auxiliary space would take about " << about(auxiliary.iterations)
                << " but " << saved << " times the work";
-        result.auxiliary_mesh.clear();
+        result.auxiliary_mesh.reset();
       }
     result.reason = reason.str();
     return result;

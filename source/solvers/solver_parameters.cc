@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
+#include <perideal/base/input_errors.h>
 #include <perideal/solvers/solver_parameters.h>
 
 #include <cmath>
@@ -16,8 +16,7 @@ namespace perideal
       "What is solved: static: equilibrium under the final loads; quasi static: equilibria under Load "
       "steps, geometrically nonlinear, in which bonds break where a fracture energy or critical stretch is "
       "given, by Newton's method; dynamic relaxation: the same by a damped motion; dynamics: motion from "
-      "t = 0 to End time, explicit, otherwise as these",
-      Selection("static|quasi static|dynamic relaxation|dynamics"));
+      "t = 0 to End time, explicit, otherwise as these");
     prm.add_parameter(
       "Tolerance",
       tolerance,
@@ -48,22 +47,19 @@ namespace perideal
       linear_solver,
       "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
       "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
-      "small problems",
-      Selection("automatic|cg|gmres|trilinos cg|trilinos gmres|direct"));
+      "small problems");
     prm.add_parameter(
       "Preconditioner",
       preconditioner,
       "automatic: auxiliary or block jacobi, whichever is estimated to take less work; auxiliary: block "
       "Jacobi plus multigrid on the finite-element matrix of the same body, in few iterations at any "
-      "size; block jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none",
-      Selection("automatic|auxiliary|block jacobi|none"));
+      "size; block jacobi: inverted diagonal blocks; none. The assembled solvers take block jacobi or none");
     prm.add_parameter(
       "Auxiliary mesh",
       auxiliary_mesh,
       "Where the finite elements of the auxiliary preconditioner live. same: on the cells of the "
       "mesh; parent: on the cells before the last refinement, fewer by 4 (2-D) or 8 (3-D); "
-      "automatic: parent where the mesh was refined",
-      Selection("automatic|same|parent"));
+      "automatic: parent where the mesh was refined");
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
@@ -81,8 +77,7 @@ namespace perideal
       "Integrator",
       integrator,
       "velocity verlet: initial velocities are those at t = 0; symplectic euler: those half a "
-      "step before; central differences both",
-      Selection("velocity verlet|symplectic euler"));
+      "step before; central differences both");
     prm.add_parameter("Damping", damping, "Viscous force over mass and velocity, >= 0 [1/s]", Double());
     prm.add_parameter("Relative damping",
                       relative_damping,
@@ -94,11 +89,12 @@ namespace perideal
 
   void SolverParameters::check() const
   {
-    const auto check_range = [](const bool fits, const char *parameter, const char *allowed) {
+    InputErrorCollector errors;
+    const auto          check_range = [&](const bool fits, const char *parameter, const char *allowed) {
       if (!fits)
-        throw InputError("the value is out of range")
-          .parameter(std::string("Solver/") + parameter)
-          .allowed(allowed);
+        errors.add(InputError("the value is out of range")
+                     .parameter(std::string("Solver/") + parameter)
+                     .allowed(allowed));
     };
     check_range(
       !is_dynamic() || (end_time > 0 && std::isfinite(end_time)), "End time", "a time > 0 in dynamics");
@@ -108,13 +104,15 @@ namespace perideal
     check_range(
       relative_damping >= 0 && std::isfinite(relative_damping), "Relative damping", "a number >= 0");
     if (!(tolerance > 0 && tolerance < 1))
-      throw InputError("the tolerance is out of range")
-        .parameter("Solver/Tolerance")
-        .allowed("0 < tolerance < 1");
+      errors.add(InputError("the tolerance is out of range")
+                   .parameter("Solver/Tolerance")
+                   .allowed("0 < tolerance < 1"));
+    errors.raise();
   }
 
   bool SolverParameters::assembles() const
   {
-    return linear_solver == "direct" || linear_solver.compare(0, 8, "trilinos") == 0;
+    return linear_solver == LinearSolverName::direct || linear_solver == LinearSolverName::trilinos_cg ||
+           linear_solver == LinearSolverName::trilinos_gmres;
   }
 } // namespace perideal

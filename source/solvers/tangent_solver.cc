@@ -47,10 +47,10 @@ namespace perideal
     LinearSolve result = solver->solve(solution, source, {});
     if (parameters.assembles())
       return result;
-    if (!result.converged && parameters.linear_solver == "automatic")
+    if (!result.converged && parameters.linear_solver == LinearSolverName::automatic)
       {
         SolverParameters with_gmres = parameters;
-        with_gmres.linear_solver    = "gmres";
+        with_gmres.linear_solver    = LinearSolverName::gmres;
         std::unique_ptr<LinearSolver<dim>> gmres;
         if (!renew(gmres, with_gmres))
           return result;

@@ -131,10 +131,10 @@ namespace perideal::test
                   const double       horizon_factor = 3.01,
                   const std::string &horizon_shape  = "sphere",
                   const std::string &scheme         = "one point")
-      : nodes(mesh, NodeParameters{horizon_factor, horizon_shape})
+      : nodes(mesh, NodeParameters{horizon_factor, choice_of<HorizonShape>(horizon_shape)})
     {
       QuadratureParameters quadrature;
-      quadrature.scheme = scheme;
+      quadrature.scheme = choice_of<QuadratureScheme>(scheme);
       prepare_cells(quadrature, mesh, nodes);
       families = std::make_shared<const Families<dim>>(nodes, create_volume_rule<dim>(quadrature));
     }

@@ -97,7 +97,7 @@ namespace perideal::test
       nodes.communicator = MPI_COMM_SELF;
       nodes.number();
       QuadratureParameters quadrature;
-      quadrature.scheme = "cubic cell";
+      quadrature.scheme = QuadratureScheme::cubic_cell;
       families          = std::make_shared<const Families<3>>(nodes, create_volume_rule<3>(quadrature));
       BondBased<3> model(1.);
       // No bond is cut, but families may be empty.

@@ -35,6 +35,19 @@ namespace perideal
     std::string from, to;
   };
 
+  /// Of what the finite elements are made that solutions are held against.
+  enum class ComparedStiffness
+  {
+    material,
+    families
+  };
+
+  template <>
+  struct ChoiceNames<ComparedStiffness>
+  {
+    static constexpr const char *list[] = {"material", "families"};
+  };
+
   /// Section "Comparison": what the solution is held against.
   struct ComparisonParameters
   {
@@ -43,9 +56,8 @@ namespace perideal
     /// Polynomial degree of these.
     unsigned int fem_degree = 1;
     /// Q2 finite elements on the refined mesh.
-    bool reference = false;
-    /// material | families: whose stiffness the finite elements have.
-    std::string stiffness = "material";
+    bool              reference = false;
+    ComparedStiffness stiffness = ComparedStiffness::material;
     /// Refinements of the reference's mesh; -1: coarsened once.
     int reference_refinements = 1;
     /// Gmsh file of the same body on which the reference is solved; empty: the scene's mesh.
@@ -59,7 +71,7 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
-    bool by_families() const { return stiffness == "families"; }
+    bool by_families() const { return stiffness == ComparedStiffness::families; }
 
     bool has_exact() const { return !(exact[0].empty() && exact[1].empty() && exact[2].empty()); }
   };

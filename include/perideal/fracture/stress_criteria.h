@@ -29,12 +29,12 @@ namespace perideal
     /// Nothing fails.
     StressCriterion() = default;
 
-    /// @param name maximum tensile stress | Mohr-Coulomb
+    /// @param criterion not none
     /// @param tensile_strength f_t > 0 [Pa]
     /// @param compressive_strength f_c >= f_t [Pa], of Mohr-Coulomb only
-    StressCriterion(const std::string &name,
-                    const double       tensile_strength,
-                    const double       compressive_strength);
+    StressCriterion(const FailureCriterion criterion,
+                    const double           tensile_strength,
+                    const double           compressive_strength);
 
     /// Whether any stress reaches it.
     bool can_fail() const { return per_tension > 0; }

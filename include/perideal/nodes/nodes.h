@@ -5,6 +5,7 @@
 #include <perideal/base/types.h>
 #include <perideal/geometry/cell_vertices.h>
 #include <perideal/mesh/mesh.h>
+#include <perideal/parameters/choice.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -14,13 +15,26 @@
 
 namespace perideal
 {
+  /// Whether horizons are spheres or have the shape of the cells.
+  enum class HorizonShape
+  {
+    automatic,
+    sphere,
+    cell
+  };
+
+  template <>
+  struct ChoiceNames<HorizonShape>
+  {
+    static constexpr const char *list[] = {"automatic", "sphere", "cell"};
+  };
+
   /// Section "Nodes".
   struct NodeParameters
   {
     /// Horizon of a node over its spacing [-].
-    double horizon_factor = 3.01;
-    /// automatic | sphere | cell: whether horizons are spheres or have the shape of the cells.
-    std::string horizon_shape = "automatic";
+    double       horizon_factor = 3.01;
+    HorizonShape horizon_shape  = HorizonShape::automatic;
     /// How far nodes lie off the centroids, over the edges of their cells: at most half of this [-].
     double perturbation = 0.;
     /// Whether the weights of families that are equal are made and kept once.

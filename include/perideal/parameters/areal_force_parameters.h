@@ -2,6 +2,7 @@
 #ifndef perideal_parameters_areal_force_parameters_h
 #define perideal_parameters_areal_force_parameters_h
 
+#include <perideal/parameters/choice.h>
 #include <perideal/parameters/parameter_file.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -12,14 +13,27 @@
 
 namespace perideal
 {
+  /// How the forces of bonds through a plane are summed.
+  enum class ArealForceRule
+  {
+    automatic,
+    line,
+    bonds
+  };
+
+  template <>
+  struct ChoiceNames<ArealForceRule>
+  {
+    static constexpr const char *list[] = {"automatic", "line", "bonds"};
+  };
+
   /// A subsection of "Areal force densities", as text.
   struct ArealForceText
   {
     std::string name;
     /// Coordinates [m] and components, separated by commas.
-    std::string point, normal;
-    /// automatic | line | bonds.
-    std::string rule = "automatic";
+    std::string    point, normal;
+    ArealForceRule rule = ArealForceRule::automatic;
   };
 
   /// Section "Areal force densities".
@@ -34,7 +48,8 @@ namespace perideal
   template <int dim>
   struct ArealForcePoint
   {
-    std::string            name, rule;
+    std::string            name;
+    ArealForceRule         rule = ArealForceRule::automatic;
     dealii::Point<dim>     position;
     dealii::Tensor<1, dim> normal;
   };

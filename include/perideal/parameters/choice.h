@@ -40,6 +40,19 @@ namespace perideal
   {
     return {std::begin(ChoiceNames<Enum>::list), std::end(ChoiceNames<Enum>::list)};
   }
+
+  /// The value of a name.
+  /// @throws ExcMessage on a text that is no name of a value.
+  template <typename Enum>
+  Enum choice_of(const std::string &name)
+  {
+    const auto  names = names_of<Enum>();
+    std::size_t at    = 0;
+    while (at < names.size() && names[at] != name)
+      ++at;
+    AssertThrow(at < names.size(), dealii::ExcMessage("\"" + name + "\" names no value of this enumeration"));
+    return static_cast<Enum>(at);
+  }
 } // namespace perideal
 
 /// Reads and writes enumerations with names.
@@ -59,15 +72,9 @@ struct dealii::Patterns::Tools::Convert<Enum, std::void_t<decltype(perideal::Cho
     return perideal::name_of(value);
   }
 
-  /// @throws ExcMessage on a text that is no name of a value.
   static Enum to_value(const std::string &text, const PatternBase & = Anything())
   {
-    const auto  names = perideal::names_of<Enum>();
-    std::size_t at    = 0;
-    while (at < names.size() && names[at] != text)
-      ++at;
-    AssertThrow(at < names.size(), ExcMessage("\"" + text + "\" names no value of this enumeration"));
-    return static_cast<Enum>(at);
+    return perideal::choice_of<Enum>(text);
   }
 };
 

@@ -2,7 +2,7 @@
 #ifndef perideal_parameters_elastic_constants_h
 #define perideal_parameters_elastic_constants_h
 
-#include <string>
+#include <perideal/parameters/choice.h>
 
 namespace perideal
 {
@@ -12,6 +12,13 @@ namespace perideal
     plane_stress,
     plane_strain,
     solid
+  };
+
+  /// Those that a scene may choose.
+  template <>
+  struct ChoiceNames<PlaneAssumption>
+  {
+    static constexpr const char *list[] = {"plane stress", "plane strain"};
   };
 
   /// Linear isotropic elasticity, stored as Young's modulus [Pa] and Poisson's ratio.

@@ -3,6 +3,7 @@
 #define perideal_parameters_elastic_symmetry_h
 
 #include <perideal/base/exceptions.h>
+#include <perideal/parameters/choice.h>
 #include <perideal/parameters/elastic_solid.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -14,12 +15,28 @@ namespace perideal
 {
   class ParameterFile;
 
+  /// What a material looks like turned.
+  enum class SymmetryName
+  {
+    isotropic,
+    cubic,
+    transversely_isotropic,
+    orthotropic,
+    anisotropic
+  };
+
+  template <>
+  struct ChoiceNames<SymmetryName>
+  {
+    static constexpr const char *list[] = {
+      "isotropic", "cubic", "transversely isotropic", "orthotropic", "anisotropic"};
+  };
+
   /// The elastic symmetry of a material and its constants in the material's own axes 1, 2, 3; those of an
   /// isotropic one are not here.
   struct ElasticSymmetry
   {
-    /// isotropic | cubic | transversely isotropic | orthotropic | anisotropic.
-    std::string name = "isotropic";
+    SymmetryName name = SymmetryName::isotropic;
     /// Moduli [Pa] and Poisson's ratios of the engineering constants, as many as the symmetry has.
     std::vector<double> young_moduli, poisson_ratios, shear_moduli;
     /// Upper triangle of the stiffness [Pa], row by row.
@@ -34,7 +51,7 @@ namespace perideal
     /// Names of the parameters that this section gives itself, rather than inherits.
     std::vector<std::string> given;
 
-    bool is_isotropic() const { return name == "isotropic"; }
+    bool is_isotropic() const { return name == SymmetryName::isotropic; }
 
     /// Declares the parameters in the section that is open, @p section of the file.
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file, const std::string &section);

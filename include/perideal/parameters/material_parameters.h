@@ -14,6 +14,20 @@ namespace perideal
 {
   class ParameterFile;
 
+  /// By which stress bonds break.
+  enum class FailureCriterion
+  {
+    none,
+    maximum_tensile_stress,
+    mohr_coulomb
+  };
+
+  template <>
+  struct ChoiceNames<FailureCriterion>
+  {
+    static constexpr const char *list[] = {"none", "maximum tensile stress", "Mohr-Coulomb"};
+  };
+
   /// What one material is made of.
   struct MaterialProperties
   {
@@ -41,10 +55,9 @@ namespace perideal
    */
   struct MaterialParameters
   {
-    /// Name of the plane assumption, of interest in 2-D only.
-    std::string assumption = "plane stress";
-    /// none | maximum tensile stress | Mohr-Coulomb: by which stress bonds break.
-    std::string failure_criterion = "none";
+    /// Of interest in 2-D only.
+    PlaneAssumption  assumption        = PlaneAssumption::plane_stress;
+    FailureCriterion failure_criterion = FailureCriterion::none;
     /// Properties of cells in no named group.
     MaterialProperties body;
     /// Properties by physical group name (or id).
@@ -58,7 +71,7 @@ namespace perideal
     void check(const int dim) const;
 
     /// Whether bonds break by stress.
-    bool has_criterion() const { return failure_criterion != "none"; }
+    bool has_criterion() const { return failure_criterion != FailureCriterion::none; }
 
     /// What a material is in @p dim dimensions.
     /// @throws InputError as check().

@@ -4,6 +4,7 @@
 
 #include <perideal/geometry/cell_sections.h>
 #include <perideal/nodes/nodes.h>
+#include <perideal/quadrature/quadrature_parameters.h>
 
 #include <deal.II/base/point.h>
 
@@ -14,14 +15,6 @@
 
 namespace perideal
 {
-  enum class IntegrationRule
-  {
-    /// Gauss points between the kinks of the limits.
-    gauss,
-    /// Intervals that are halved (K. Yu's thesis, eqs. (2.40)-(2.51)).
-    trapezoid
-  };
-
   /// Integration ends when a value changes by at most relative times itself, or, where the value is not above
   /// absolute, by at most relative (the thesis' EPS and TOL; section 2.4.3).
   struct IntegrationTolerance

@@ -3,41 +3,13 @@
 #define perideal_quadrature_bond_volume_h
 
 #include <perideal/neighbourhood/volume_rule.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <perideal/quadrature/quadrature_parameters.h>
 
 #include <algorithm>
 #include <memory>
-#include <string>
 
 namespace perideal
 {
-  /// Section "Quadrature".
-  struct QuadratureParameters
-  {
-    /// one point | cubic cell | partial volume | adaptive | exact | gauss points: how much of a neighbour's
-    /// volume a bond counts, and where.
-    std::string scheme = "one point";
-    /// gauss | trapezoid: points of adaptive integration.
-    std::string adaptive_rule = "gauss";
-    /// When adaptive integration has converged [-].
-    double relative_tolerance = 1e-6, absolute_tolerance = 1e-4;
-    /// Gauss points of a cell in each direction, and radius of the supports of moving least squares, in
-    /// spacings of the cell [-].
-    unsigned int gauss_points   = 2;
-    double       support_radius = 3.;
-
-    void declare(dealii::ParameterHandler &prm);
-    /// @throws InputError on tolerances that are not positive, and supports that hold no points.
-    void check() const;
-
-    bool counts_parts() const { return scheme != "one point"; }
-    /// Whether cells have several points, whose displacements are interpolated.
-    bool has_gauss_points() const { return scheme == "gauss points"; }
-    /// Whether shares are those of the cells themselves, and not of squares or cubes in their place.
-    bool needs_cells() const { return scheme == "adaptive" || scheme == "exact"; }
-  };
-
   /// Lets the nodes know of their cells what the scheme asks for, before families are made. Collective.
   template <int dim>
   void prepare_cells(const QuadratureParameters &parameters, const Mesh<dim> &mesh, Nodes<dim> &nodes);

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,9 @@ namespace perideal
   /// The preconditioner that a scene gets.
   struct PreconditionerChoice
   {
-    /// auxiliary | block jacobi | none
-    std::string preconditioner;
-    /// Of the auxiliary space: same | parent; else empty.
-    std::string auxiliary_mesh;
+    PreconditionerName preconditioner = PreconditionerName::automatic;
+    /// Of the auxiliary space.
+    std::optional<AuxiliaryMesh> auxiliary_mesh;
     /// Why, for the banner, where the program chose; else empty.
     std::string reason;
   };

@@ -48,10 +48,10 @@ namespace perideal
    */
   SolveEstimate estimate_block_jacobi(const SolveSize &size, const double tolerance);
 
-  /// The same with the auxiliary space on a mesh ("same", "parent"), whose
+  /// The same with the auxiliary space on a mesh (not automatic), whose
   /// iterations depend on the tolerance alone, but whose set-up is dear.
   SolveEstimate
-  estimate_auxiliary(const SolveSize &size, const std::string &auxiliary_mesh, const double tolerance);
+  estimate_auxiliary(const SolveSize &size, const AuxiliaryMesh auxiliary_mesh, const double tolerance);
 
   /**
    * Preconditioner and auxiliary mesh for the parameters: those they name, and

@@ -2,22 +2,97 @@
 #ifndef perideal_solvers_solver_parameters_h
 #define perideal_solvers_solver_parameters_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <perideal/parameters/choice.h>
 
-#include <string>
+#include <deal.II/base/parameter_handler.h>
 
 namespace perideal
 {
+  /// What is solved.
+  enum class SolverName
+  {
+    linear_static,
+    quasi_static,
+    dynamic_relaxation,
+    dynamics
+  };
+
+  template <>
+  struct ChoiceNames<SolverName>
+  {
+    static constexpr const char *list[] = {"static", "quasi static", "dynamic relaxation", "dynamics"};
+  };
+
+  /// How linear systems are solved; those of Trilinos and the direct one assemble the matrix.
+  enum class LinearSolverName
+  {
+    automatic,
+    cg,
+    gmres,
+    trilinos_cg,
+    trilinos_gmres,
+    direct
+  };
+
+  template <>
+  struct ChoiceNames<LinearSolverName>
+  {
+    static constexpr const char *list[] = {
+      "automatic", "cg", "gmres", "trilinos cg", "trilinos gmres", "direct"};
+  };
+
+  /// What makes iterations few.
+  enum class PreconditionerName
+  {
+    automatic,
+    auxiliary,
+    block_jacobi,
+    none
+  };
+
+  template <>
+  struct ChoiceNames<PreconditionerName>
+  {
+    static constexpr const char *list[] = {"automatic", "auxiliary", "block jacobi", "none"};
+  };
+
+  /// Where the finite elements of the auxiliary space live.
+  enum class AuxiliaryMesh
+  {
+    automatic,
+    same,
+    parent
+  };
+
+  template <>
+  struct ChoiceNames<AuxiliaryMesh>
+  {
+    static constexpr const char *list[] = {"automatic", "same", "parent"};
+  };
+
+  /// How motion is integrated in time; both are central differences.
+  enum class Integrator
+  {
+    velocity_verlet,
+    symplectic_euler
+  };
+
+  template <>
+  struct ChoiceNames<Integrator>
+  {
+    static constexpr const char *list[] = {"velocity verlet", "symplectic euler"};
+  };
+
   /// Section "Solver".
   struct SolverParameters
   {
-    std::string  name           = "static";
-    double       tolerance      = 1e-8;
-    unsigned int max_iterations = 5000;
-    std::string  linear_solver  = "automatic";
-    std::string  preconditioner = "automatic";
-    std::string  auxiliary_mesh = "automatic";
-    unsigned int load_steps     = 1;
+    SolverName         name           = SolverName::linear_static;
+    double             tolerance      = 1e-8;
+    unsigned int       max_iterations = 5000;
+    LinearSolverName   linear_solver  = LinearSolverName::automatic;
+    PreconditionerName preconditioner = PreconditionerName::automatic;
+    AuxiliaryMesh      auxiliary_mesh = AuxiliaryMesh::automatic;
+    unsigned int       load_steps     = 1;
     /// Newton iterations of an equilibrium.
     unsigned int newton_iterations = 25;
     /// Times that a load step may be halved before it has failed.
@@ -26,16 +101,17 @@ namespace perideal
     /// Of dynamics [s]; step 0: chosen.
     double end_time = 0, time_step = 0;
     /// Part of the largest stable step [-].
-    double      time_step_safety = 0.8;
-    std::string integrator       = "velocity verlet";
+    double     time_step_safety = 0.8;
+    Integrator integrator       = Integrator::velocity_verlet;
     /// Viscous force over mass and velocity [1/s].
     double damping = 0;
     /// Rate at which motion against the family dies out [1/s].
     double relative_damping = 0;
 
-    bool is_dynamic() const { return name == "dynamics"; }
-    bool is_relaxation() const { return name == "dynamic relaxation"; }
-    bool is_quasi_static() const { return name == "quasi static"; }
+    bool is_linear_static() const { return name == SolverName::linear_static; }
+    bool is_dynamic() const { return name == SolverName::dynamics; }
+    bool is_relaxation() const { return name == SolverName::dynamic_relaxation; }
+    bool is_quasi_static() const { return name == SolverName::quasi_static; }
     /// Equilibria of the nonlinear force.
     bool is_nonlinear_static() const { return is_relaxation() || is_quasi_static(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
+#include <perideal/base/input_errors.h>
 #include <perideal/operators/force/contact_parameters.h>
 
 namespace perideal
@@ -12,8 +12,7 @@ namespace perideal
       "Enabled",
       enabled,
       "Whether nodes without an intact bond repel each other when they come too close, in dynamics; "
-      "automatic: where bonds can break or there are precracks",
-      Selection("automatic|true|false"));
+      "automatic: where bonds can break or there are precracks");
     prm.add_parameter("Distance",
                       distance,
                       "Below which nodes repel, over their mean spacing and over their distance at rest, "
@@ -30,14 +29,15 @@ namespace perideal
 
   void ContactParameters::check() const
   {
+    InputErrorCollector errors;
     if (!(distance > 0 && distance <= 1))
-      throw InputError("the value is out of range")
-        .parameter("Contact/Distance")
-        .allowed("0 < distance <= 1");
+      errors.add(
+        InputError("the value is out of range").parameter("Contact/Distance").allowed("0 < distance <= 1"));
     // Four contacts of 12 are an eigenvalue of 96 where the intact body has some 15.
     if (!(stiffness > 0 && stiffness <= 12))
-      throw InputError("the value is out of range")
-        .parameter("Contact/Stiffness")
-        .allowed("0 < stiffness <= 12; more needs smaller time steps than the body does");
+      errors.add(InputError("the value is out of range")
+                   .parameter("Contact/Stiffness")
+                   .allowed("0 < stiffness <= 12; more needs smaller time steps than the body does"));
+    errors.raise();
   }
 } // namespace perideal

@@ -200,9 +200,9 @@ namespace perideal
     const std::string         section = "Areal force densities/" + points[k].name;
     Surroundings              around  = look_around(nodes, x);
     Place                     place;
-    if (points[k].rule != "bonds" && !around.is_mixed)
+    if (points[k].rule != ArealForceRule::bonds && !around.is_mixed)
       place.pair_force = pair_force_of(around.material, around.horizon);
-    if (points[k].rule == "line" && !place.pair_force)
+    if (points[k].rule == ArealForceRule::line && !place.pair_force)
       throw InputError("the line needs bonds that know only their own ends, in one material")
         .parameter(section + "/Rule")
         .given("line")

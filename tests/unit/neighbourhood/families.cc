@@ -81,7 +81,7 @@ namespace
         return vertex;
       },
       mesh->triangulation);
-    Nodes<dim> nodes(*mesh, NodeParameters{2.2, horizon_shape});
+    Nodes<dim> nodes(*mesh, NodeParameters{2.2, choice_of<HorizonShape>(horizon_shape)});
     EXPECT_EQ(nodes.shape.empty(), horizon_shape == "sphere");
     return nodes;
   }

@@ -52,7 +52,7 @@ namespace
 
     dealii::Point<dim> middle() const { return corner(n / 2 + 0.5); }
 
-    std::vector<ArealForcePoint<dim>> planes(const dealii::Point<dim> &x, const std::string &rule) const
+    std::vector<ArealForcePoint<dim>> planes(const dealii::Point<dim> &x, const ArealForceRule rule) const
     {
       std::vector<ArealForcePoint<dim>> result;
       for (int d = 0; d < dim; ++d)
@@ -168,7 +168,7 @@ namespace
         const auto       strain      = strain_of_size<dim>(1e-7);
         const auto       u           = block.field([&](const auto &x) { return strain * x; });
         const auto       elastic     = dealii::Tensor<2, dim>(block.solid.stiffness() * strain);
-        const auto       density     = block.density(block.planes(block.middle(), "bonds"));
+        const auto       density     = block.density(block.planes(block.middle(), ArealForceRule::bonds));
         const auto       by_force    = density.evaluate(u, block.stress_of_force(u));
         const auto       by_operator = density.evaluate(u, block.stress_of_operator(u));
         EXPECT_LE(difference(by_operator, elastic), quadrature_error(variant, dim));
@@ -179,9 +179,9 @@ namespace
         // Finite stretches add the strain's own size; weights and lengths lose digits.
         EXPECT_LE(difference(by_force, linear), 1e-5);
 
-        const auto line    = block.density(block.planes(block.middle(), "automatic"));
+        const auto line    = block.density(block.planes(block.middle(), ArealForceRule::automatic));
         const bool of_ends = variant.first == "bond based" || variant.second == "one point";
-        ASSERT_EQ(line.rule(0), of_ends ? "line" : "bonds");
+        ASSERT_EQ(line.rule(0), of_ends ? ArealForceRule::line : ArealForceRule::bonds);
         EXPECT_EQ(line.needs_stress(), !of_ends);
         if (of_ends)
           {
@@ -197,7 +197,7 @@ namespace
     const Block<dim> block(10, {"bond based", "energy"});
     const auto       strain = strain_of_size<dim>(1e-3);
     const auto       u      = block.field([&](const auto &x) { return strain * x; });
-    for (const std::string rule : {"line", "bonds"})
+    for (const auto rule : {ArealForceRule::line, ArealForceRule::bonds})
       {
         auto planes          = block.planes(block.middle(), rule);
         planes[0].normal     = -planes[0].normal;
@@ -206,8 +206,8 @@ namespace
         const auto density   = block.density(planes);
         const auto tractions = density.evaluate(u, block.stress_of_force(u));
         // Interpolation and quadrature leave round-off.
-        EXPECT_LE((tractions[0] + tractions[1]).norm(), 1e-10 * tractions[0].norm()) << rule;
-        EXPECT_GT(tractions[0].norm(), 1e-4) << rule;
+        EXPECT_LE((tractions[0] + tractions[1]).norm(), 1e-10 * tractions[0].norm()) << name_of(rule);
+        EXPECT_GT(tractions[0].norm(), 1e-4) << name_of(rule);
       }
   }
 
@@ -230,11 +230,11 @@ namespace
         const Block<dim> block(7, variant);
         const bool       turns = variant.first != "tensor involved";
         const auto       u     = block.field([&](const auto &x) { return rigid_motion<dim>(x, turns); });
-        for (const std::string rule : {"automatic", "bonds"})
+        for (const auto rule : {ArealForceRule::automatic, ArealForceRule::bonds})
           for (const auto &tau :
                block.density(block.planes(block.middle(), rule)).evaluate(u, block.stress_of_force(u)))
             // Round-off of lengths of order 10, E = 1.
-            EXPECT_LE(tau.norm(), 1e-11) << variant.first << ", " << variant.second << ", " << rule;
+            EXPECT_LE(tau.norm(), 1e-11) << variant.first << ", " << variant.second << ", " << name_of(rule);
       }
   }
 
@@ -246,20 +246,20 @@ namespace
     dealii::SymmetricTensor<2, dim> strain;
     strain[0][0]     = 1e-3;
     const auto u     = block.field([&](const auto &x) { return strain * x; });
-    const auto pulls = [&](const double x, const std::string &rule) {
+    const auto pulls = [&](const double x, const ArealForceRule rule) {
       dealii::Point<dim> point = block.middle();
       point[0]                 = x;
       const auto density       = block.density({{"", rule, point, dealii::Point<dim>::unit_vector(0)}});
       return density.evaluate(u, block.stress_of_force(u))[0][0];
     };
-    const double inside = pulls(5.5, "line");
-    EXPECT_NEAR(pulls(10., "line"), 0., 1e-15);
-    EXPECT_NEAR(pulls(0., "line"), 0., 1e-15);
-    EXPECT_LT(pulls(9.5, "line"), 0.8 * pulls(8.5, "line"));
-    EXPECT_LT(pulls(8.5, "line"), 0.999 * inside);
-    EXPECT_LT(pulls(9.5, "bonds"), 0.8 * pulls(5.5, "bonds"));
+    const double inside = pulls(5.5, ArealForceRule::line);
+    EXPECT_NEAR(pulls(10., ArealForceRule::line), 0., 1e-15);
+    EXPECT_NEAR(pulls(0., ArealForceRule::line), 0., 1e-15);
+    EXPECT_LT(pulls(9.5, ArealForceRule::line), 0.8 * pulls(8.5, ArealForceRule::line));
+    EXPECT_LT(pulls(8.5, ArealForceRule::line), 0.999 * inside);
+    EXPECT_LT(pulls(9.5, ArealForceRule::bonds), 0.8 * pulls(5.5, ArealForceRule::bonds));
     // By symmetry of the bonds, which the two lines do not have.
-    EXPECT_NEAR(pulls(9., "line"), pulls(1., "line"), 0.01 * inside);
+    EXPECT_NEAR(pulls(9., ArealForceRule::line), pulls(1., ArealForceRule::line), 0.01 * inside);
   }
 
   template <int dim>
@@ -332,7 +332,11 @@ TEST(ArealForceDensity, IsExactForUniformStrain)
   for (const auto &strain : {InfiniteBody::uniaxial(), InfiniteBody::triaxial(), InfiniteBody::shear()})
     {
       const ArealForceDensity<3> density(
-        nodes, faces, 1., block.planes({33., 33., 33.}, "line"), [](const auto, const double horizon) {
+        nodes,
+        faces,
+        1.,
+        block.planes({33., 33., 33.}, ArealForceRule::line),
+        [](const auto, const double horizon) {
           return BondBased<3>(1.).pair_force(
             InfiniteBody::solid(), horizon, LinearModel<3>::Kinematics::finite);
         });
@@ -379,19 +383,21 @@ TEST(ArealForceDensity, LeavesOutLostBonds)
 TEST(ArealForceDensity, RefusesLinesThatCannotBe)
 {
   const Block<2> ordinary(8, {"ordinary", "energy"});
-  test::expect_input_error([&] { ordinary.density(ordinary.planes(ordinary.middle(), "line")); },
-                           {"Areal force densities/plane 0/Rule", "their own ends", "bonds"});
+  test::expect_input_error(
+    [&] { ordinary.density(ordinary.planes(ordinary.middle(), ArealForceRule::line)); },
+    {"Areal force densities/plane 0/Rule", "their own ends", "bonds"});
   // Two materials within the horizon, one of which the point is in.
   Block<2> mixed(8, {"bond based", "energy"});
   for (LocalIndex i = 0; i < mixed.body.nodes.size(); ++i)
     if (mixed.body.nodes.position[i][0] < 3)
       mixed.body.nodes.material[i] = 1;
-  test::expect_input_error([&] { mixed.density(mixed.planes(mixed.middle(), "line")); },
+  test::expect_input_error([&] { mixed.density(mixed.planes(mixed.middle(), ArealForceRule::line)); },
                            {"Areal force densities/plane 0/Rule", "one material"});
-  EXPECT_EQ(mixed.density(mixed.planes(mixed.middle(), "automatic")).rule(0), "bonds");
-  EXPECT_EQ(mixed.density(mixed.planes({7.5, 4.5}, "automatic")).rule(0), "line");
+  EXPECT_EQ(mixed.density(mixed.planes(mixed.middle(), ArealForceRule::automatic)).rule(0),
+            ArealForceRule::bonds);
+  EXPECT_EQ(mixed.density(mixed.planes({7.5, 4.5}, ArealForceRule::automatic)).rule(0), ArealForceRule::line);
   // Too few nodes to interpolate.
   const Block<2> small(2, {"bond based", "energy"});
-  test::expect_input_error([&] { small.density(small.planes(small.middle(), "line")); },
+  test::expect_input_error([&] { small.density(small.planes(small.middle(), ArealForceRule::line)); },
                            {"Areal force densities/plane 0/Point", "interpolation", "refine"});
 }

@@ -16,10 +16,11 @@ namespace
   double error_of(const std::string &scheme)
   {
     QuadratureParameters quadrature;
-    quadrature.scheme   = scheme;
+    quadrature.scheme   = choice_of<QuadratureScheme>(scheme);
     const double factor = 3., exact = dim == 3 ? dealii::numbers::PI * std::pow(factor, 4) :
                                                  2. * dealii::numbers::PI / 3. * std::pow(factor, 3);
-    return std::abs(regular_first_moment<dim>(NodeParameters{factor, "sphere"}, quadrature) / exact - 1.);
+    return std::abs(
+      regular_first_moment<dim>(NodeParameters{factor, HorizonShape::sphere}, quadrature) / exact - 1.);
   }
 } // namespace
 
@@ -39,8 +40,8 @@ TEST(RegularBody, IsWhatTheInsideOfALargerBodySees)
       const auto           mesh = test::make_box<2>({11, 11}, {5.5, 5.5}, 0.);
       const test::Body<2>  body(*mesh, 3.01, "sphere", scheme);
       QuadratureParameters quadrature;
-      quadrature.scheme  = scheme;
-      const double whole = regular_first_moment<2>(NodeParameters{3.01, "sphere"}, quadrature);
+      quadrature.scheme  = choice_of<QuadratureScheme>(scheme);
+      const double whole = regular_first_moment<2>(NodeParameters{3.01, HorizonShape::sphere}, quadrature);
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         if (body.nodes.position[i].distance(dealii::Point<2>(2.75, 2.75)) < 0.1)
           {

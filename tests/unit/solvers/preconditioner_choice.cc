@@ -22,7 +22,8 @@ namespace
   std::string chosen(const SolveSize &size, const SolverParameters &parameters = {})
   {
     const auto choice = choose_preconditioner(parameters, size);
-    return choice.preconditioner + (choice.auxiliary_mesh.empty() ? "" : ", " + choice.auxiliary_mesh);
+    return name_of(choice.preconditioner) +
+           (choice.auxiliary_mesh ? ", " + name_of(*choice.auxiliary_mesh) : "");
   }
 } // namespace
 
@@ -84,11 +85,11 @@ TEST(PreconditionerChoice, EstimatesIterations)
   EXPECT_NEAR(estimate_block_jacobi(block(2, 100, false), 1e-8).iterations, 183, 1);
   EXPECT_NEAR(estimate_block_jacobi(block(3, 32, false), 1e-8).iterations, 58, 1);
   EXPECT_NEAR(estimate_block_jacobi(block(3, 32, false), 1e-4).iterations, 29, 1);
-  EXPECT_NEAR(estimate_auxiliary(block(3, 32, false), "same", 1e-8).iterations, 25, 1);
+  EXPECT_NEAR(estimate_auxiliary(block(3, 32, false), AuxiliaryMesh::same, 1e-8).iterations, 25, 1);
   SolveSize harder        = block(3, 32, false);
   harder.iteration_factor = 2;
   EXPECT_NEAR(estimate_block_jacobi(harder, 1e-8).iterations, 117, 1);
-  EXPECT_NEAR(estimate_auxiliary(harder, "same", 1e-8).iterations, 50, 1);
+  EXPECT_NEAR(estimate_auxiliary(harder, AuxiliaryMesh::same, 1e-8).iterations, 50, 1);
 }
 
 TEST(PreconditionerChoice, SaysWhy)
@@ -103,18 +104,18 @@ TEST(PreconditionerChoice, ObeysTheParameters)
 {
   const SolveSize  square = block(2, 32, false), refined = block(2, 32, true);
   SolverParameters parameters;
-  for (const char *name : {"none", "block jacobi"})
+  for (const auto name : {PreconditionerName::none, PreconditionerName::block_jacobi})
     {
       parameters.preconditioner = name;
-      EXPECT_EQ(chosen(refined, parameters), name);
+      EXPECT_EQ(chosen(refined, parameters), name_of(name));
       EXPECT_TRUE(choose_preconditioner(parameters, refined).reason.empty());
     }
-  parameters.preconditioner = "auxiliary";
+  parameters.preconditioner = PreconditionerName::auxiliary;
   EXPECT_EQ(chosen(square, parameters), "auxiliary, same");
   EXPECT_EQ(chosen(refined, parameters), "auxiliary, parent");
-  parameters.auxiliary_mesh = "same";
+  parameters.auxiliary_mesh = AuxiliaryMesh::same;
   EXPECT_EQ(chosen(refined, parameters), "auxiliary, same");
-  parameters.auxiliary_mesh = "parent";
+  parameters.auxiliary_mesh = AuxiliaryMesh::parent;
   EXPECT_EQ(chosen(refined, parameters), "auxiliary, parent");
   test::expect_input_error([&] { chosen(square, parameters); },
                            {"Solver/Auxiliary mesh", "parent", "not refined", "Mesh/Refinements"});
@@ -123,15 +124,16 @@ TEST(PreconditionerChoice, ObeysTheParameters)
 TEST(PreconditionerChoice, AssembledSolversTakeNoAuxiliarySpace)
 {
   SolverParameters parameters;
-  parameters.linear_solver = "trilinos cg";
-  for (const char *name : {"automatic", "auxiliary", "block jacobi"})
+  parameters.linear_solver = LinearSolverName::trilinos_cg;
+  for (const auto name :
+       {PreconditionerName::automatic, PreconditionerName::auxiliary, PreconditionerName::block_jacobi})
     {
       parameters.preconditioner = name;
       EXPECT_EQ(chosen(block(2, 200, true), parameters), "block jacobi");
     }
-  parameters.preconditioner = "none";
+  parameters.preconditioner = PreconditionerName::none;
   EXPECT_EQ(chosen(block(2, 200, true), parameters), "none");
-  parameters.preconditioner = "automatic";
-  parameters.linear_solver  = "direct";
+  parameters.preconditioner = PreconditionerName::automatic;
+  parameters.linear_solver  = LinearSolverName::direct;
   EXPECT_EQ(chosen(block(2, 200, true), parameters), "none");
 }

@@ -53,8 +53,11 @@ namespace perideal
 
     std::size_t        size() const { return points.size(); }
     const std::string &name(const std::size_t k) const { return points[k].name; }
-    /// line | bonds.
-    std::string rule(const std::size_t k) const { return places[k].pair_force ? "line" : "bonds"; }
+    /// Never automatic.
+    ArealForceRule rule(const std::size_t k) const
+    {
+      return places[k].pair_force ? ArealForceRule::line : ArealForceRule::bonds;
+    }
     /// Whether any point needs stresses.
     bool needs_stress() const;
 
