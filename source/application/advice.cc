@@ -17,8 +17,8 @@ namespace perideal
   {
     const bool consistent = parameters.model.is_consistent();
     if (n_thin > 0)
-      return (parameters.model.is_tensor_involved() ? "moment corrected form: " : "energy form: ") +
-             grouped(n_thin) +
+      return (parameters.model.has_forms() ? parameters.model.model->default_forms.failure : "energy") +
+             " form: " + grouped(n_thin) +
              " cells lie in parts one cell thick, across which the consistent form has no gradient" +
              (consistent ? "; two cells would do" : "");
     const std::string why =
@@ -27,7 +27,7 @@ namespace perideal
       return "consistent form (chosen): " + why;
     return "consistent form: " + why + ", where the " +
            (parameters.model.has_forms() ? parameters.model.form + " form" :
-                                           parameters.model.model + " model") +
+                                           parameters.model.model->name + " model") +
            " is off by per cents at surfaces";
   }
 
@@ -69,14 +69,14 @@ namespace perideal
                           std::vector<std::string> &result)
     {
       const ModelParameters &model = parameters.model;
-      if ((model.is_consistent() && !model.is_correspondence()) || scene.ghosts)
+      if ((model.is_consistent() && model.is_linear_only()) || scene.ghosts)
         return;
       const double      whole   = lattice_family<dim>(parameters.nodes.horizon_factor).size;
       const double      missing = 1. - scene.families->statistics().mean / whole;
       const std::string share   = "families lack " + short_number(std::round(100. * std::max(0., missing))) +
                                 " % of their bonds on average";
-      if (model.model == "ordinary" || (model.model == "bond based" && !model.compensates()))
-        result.push_back("the " + model.model + " model has no surface correction: " + share +
+      if (!model.model->corrects_surfaces && !model.compensates())
+        result.push_back("the " + model.model->name + " model has no surface correction: " + share +
                          ", errors of several per cent are usual");
       // Families of long cells have other numbers of members.
       if (scene.families->statistics().max < whole && scene.nodes->max_aspect_ratio < 1.5)
@@ -93,7 +93,7 @@ namespace perideal
                         std::vector<std::string> &result)
     {
       const ModelParameters &model = parameters.model;
-      if (parameters.solver.is_dynamic() && model.model == "extended ordinary" && model.form == "paper")
+      if (parameters.solver.is_dynamic() && !model.form_traits().follows_from_energy)
         result.push_back(
           "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
           "Material/Form = energy keeps what was put in");
@@ -128,12 +128,11 @@ namespace perideal
                              std::vector<std::string> &result)
     {
       const ModelParameters &model   = parameters.model;
-      const bool             springs = model.model == "bond based" || model.model == "ordinary";
-      if (parameters.quadrature.counts_parts() ||
-          !(springs || model.form == "paper" || model.form == "one point"))
+      const bool             springs = !model.model->corrects_surfaces;
+      if (parameters.quadrature.counts_parts() || model.form_traits().is_made_for_each_family)
         return;
       const std::string advice = "take Quadrature/Scheme = partial volume | exact, or Material/Form = " +
-                                 std::string(model.is_tensor_involved() ? "moment corrected" : "energy") +
+                                 (model.has_forms() ? model.model->default_forms.failure : "energy") +
                                  " | consistent";
       const double jump = largest_jump(*scene.mesh);
       if (jump > 1.5)
@@ -218,8 +217,8 @@ namespace perideal
     if (!consistent && statistics.min < wanted)
       result.push_back("the smallest family has " + std::to_string(statistics.min) +
                        " members, fewer than the " + std::to_string(wanted) +
-                       (parameters.model.is_correspondence() ? " that a gradient and what it misses take" :
-                                                               " moment conditions") +
+                       (parameters.model.model->has_law ? " that a gradient and what it misses take" :
+                                                          " moment conditions") +
                        ": enlarge Nodes/Horizon factor");
     if (parameters.model.is_correspondence() && consistent)
       if (const GlobalIndex thin = thin_cells(scene); thin > 0)
@@ -247,7 +246,7 @@ namespace perideal
                       "cells, or Material/Form = energy" :
                       " families miss a moment condition: uniform strain is not exact there (corners, thin "
                       "parts, flat cells, small horizon); see the field \"family status\""));
-    if (parameters.model.model == "bond based")
+    if (parameters.model.model->poisson_ratio)
       for (const auto &solid : scene.solids)
         {
           const ElasticConstants &given = solid.second.isotropic();

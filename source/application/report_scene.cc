@@ -63,7 +63,7 @@ namespace perideal
     result["bonds"]      = scene.families->n_bonds();
     result["neighbours"] = {{"min", statistics.min}, {"mean", statistics.mean}, {"max", statistics.max}};
     result["quadrature"] = name_of(parameters.quadrature.scheme);
-    result["model"]      = parameters.model.model;
+    result["model"]      = parameters.model.model->name;
     result["variant"]    = parameters.model.has_forms() ? parameters.model.form : "uncorrected";
     result["families"]   = {{"fallback", scene.family_counts.fallback},
                             {"singular", scene.family_counts.singular},
@@ -138,10 +138,10 @@ namespace perideal
       result["halo exchange (one rank)"] = 1;
     if (!parameters.loads.has_mirror() && !scene.surface_nodes)
       result["fictitious nodes (no mirror)"] = 1;
-    if (parameters.model.model == "bond based" ||
-        (parameters.model.is_tensor_involved() && !parameters.model.is_consistent()))
+    const auto &shape = parameters.model.form_traits().shape;
+    if (shape && shape->n_sums == 0)
       result["sums over families, their halo exchange"] = bonds;
-    else if (parameters.model.model == "ordinary" || parameters.model.form == "paper")
+    else if (shape && shape->n_sums == 1)
       result["second sum over families"] = bonds;
     return result;
   }
@@ -159,7 +159,7 @@ namespace perideal
         << (parameters.quadrature.counts_parts() ? ", volumes by " + name_of(parameters.quadrature.scheme) :
                                                    "")
         << '\n'
-        << "model       " << parameters.model.model
+        << "model       " << parameters.model.model->name
         << (parameters.model.has_forms() ? ", " + parameters.model.form + " form" : "") << ", "
         << (dim == 3 ? std::string("3-D") : name_of(parameters.material.assumption)) << '\n';
     const FamilyCounts &counts = scene.family_counts;

@@ -9,11 +9,9 @@ namespace perideal
 {
   void SceneParameters::resolve()
   {
-    // What breaks by stress breaks between the bonds of families.
-    if (model.is_correspondence() && model.form == "automatic" &&
-        (material.has_criterion() || !precracks.cracks.empty()))
-      model.form = "family";
+    const bool breaks = material.has_criterion() || !precracks.cracks.empty();
     model.resolve(dimension,
+                  breaks                                              ? ModelParameters::Use::failure :
                   solver.is_dynamic() || solver.is_nonlinear_static() ? ModelParameters::Use::motion :
                                                                         ModelParameters::Use::statics);
     resolve_treatment();
@@ -87,12 +85,12 @@ namespace perideal
 
   void SceneParameters::check_failure() const
   {
-    const bool by_stress = model.is_correspondence();
+    const bool by_stress = !model.model->critical_stretch;
     if (material.has_criterion() && !by_stress)
       throw InputError("the bonds of this model break by stretch")
         .parameter("Material/Failure criterion")
         .given(name_of(material.failure_criterion))
-        .allowed("none for Model = " + model.model)
+        .allowed("none for Model = " + model.model->name)
         .hint("set Material/Fracture energy or Critical stretch");
     const auto check = [&](const MaterialProperties &properties, const std::string &section) {
       if (by_stress && (properties.fracture_energy > 0 || properties.critical_stretch > 0))
@@ -108,15 +106,15 @@ namespace perideal
 
   void SceneParameters::check_quadrature() const
   {
-    if (model.compensation_of_a_bond != "mean" && !quadrature.has_gauss_points())
+    if (model.compensation_of_a_bond != CompensationOfABond::mean && !quadrature.has_gauss_points())
       throw InputError("bonds whose ends oppose each other have one factor")
         .parameter("Material/Compensation of a bond")
-        .given(model.compensation_of_a_bond)
+        .given(name_of(model.compensation_of_a_bond))
         .allowed("mean; or set Quadrature/Scheme = gauss points");
     if (model.compensates() && loads.has_mirror())
       throw InputError("bonds to mirrored nodes are not missing")
         .parameter("Material/Boundary compensation")
-        .given(model.boundary_compensation)
+        .given(name_of(model.boundary_compensation))
         .allowed("none with Displacement treatment = mirror");
     if (nodes.perturbation > 0 && quadrature.needs_squares())
       throw InputError("this scheme takes cells for squares or cubes about their nodes, which are elsewhere")
@@ -131,8 +129,8 @@ namespace perideal
         .given(name_of(quadrature.scheme))
         .hint("choose another scheme");
     };
-    if (model.model != "bond based")
-      complain("not Material/Model = " + model.model);
+    if (!model.model->has_one_micromodulus)
+      complain("not Material/Model = " + model.model->name);
     if (solver.is_dynamic() || solver.is_nonlinear_static())
       complain("not Solver/Name = " + name_of(solver.name));
     if (loads.has_mirror())
@@ -155,7 +153,7 @@ namespace perideal
       complain("only the consistent form takes tractions at faces", "automatic | layer for this model");
     if (treatment == TractionTreatment::automatic)
       treatment = consistent ? TractionTreatment::face_value : TractionTreatment::layer;
-    if (loads.has_line_to_point() && (model.model != "bond based" || dimension != 3))
+    if (loads.has_line_to_point() && (!model.model->has_one_micromodulus || dimension != 3))
       complain("the closed form is that of bond-based peridynamics in 3-D",
                "automatic | layer | taylor ghosts | transfer for this scene");
     check_transfer();
@@ -170,10 +168,10 @@ namespace perideal
         .parameter("Solver/Name")
         .given(name_of(solver.name))
         .allowed("static | quasi static for Material/Model = correspondence");
-    if (model.law != "linear elastic" && !solver.is_quasi_static())
+    if (!model.law->is_linear && !solver.is_quasi_static())
       throw InputError("large strain is sought along load steps")
         .parameter("Material/Law")
-        .given(model.law)
+        .given(model.law->name)
         .allowed("linear elastic for Solver/Name = " + name_of(solver.name))
         .hint("set Solver/Name = quasi static");
     if (quadrature.has_gauss_points())
@@ -215,8 +213,7 @@ namespace perideal
 
   void SceneParameters::check_areal_forces() const
   {
-    const bool of_ends =
-      model.model == "bond based" || (model.is_tensor_involved() && model.form == "one point");
+    const bool of_ends   = model.form_traits().bonds_know_only_their_ends;
     const bool not_whole = can_break(*this) || !precracks.cracks.empty();
     for (const ArealForceText &text : areal_forces.points)
       if (text.rule == ArealForceRule::line && (!of_ends || not_whole))

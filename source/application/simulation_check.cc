@@ -3,7 +3,6 @@
 #include <perideal/application/report.h>
 #include <perideal/application/simulation.h>
 #include <perideal/base/instantiate.h>
-#include <perideal/fracture/critical_stretch.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/mpi.h>

@@ -2,8 +2,8 @@
 #include <perideal/application/simulation.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
-#include <perideal/fracture/stress_criteria.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
+#include <perideal/parameters/stress_criteria.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -5,7 +5,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/fracture/crack_tracker.h>
-#include <perideal/fracture/critical_stretch.h>
 #include <perideal/fracture/fragments.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
@@ -26,14 +25,8 @@ namespace perideal
     if (material.critical_stretch > 0)
       return material.critical_stretch;
     if (material.fracture_energy > 0)
-      {
-        const auto formula = parameters.model.stretch_formula == "tensor involved" ?
-                               tensor_critical_stretch :
-                               ordinary_critical_stretch;
-        return formula(parameters.model.constants_of_model(scene.solids.at(id).isotropic()),
-                       material.fracture_energy,
-                       horizon);
-      }
+      return parameters.model.critical_stretch(
+        scene.solids.at(id).isotropic(), material.fracture_energy, horizon);
     return std::numeric_limits<double>::infinity();
   }
 

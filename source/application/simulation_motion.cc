@@ -70,8 +70,7 @@ namespace perideal
       problem = "the energy that is there is not what was put in";
     if (problem.empty())
       return;
-    const bool has_energy =
-      !(parameters.model.model == "extended ordinary" && parameters.model.form == "paper");
+    const bool has_energy = parameters.model.form_traits().follows_from_energy;
     throw ComputationError(
       problem + ": step " + std::to_string(dynamics.step()) + ", t = " + short_number(dynamics.time()) +
       " s, fastest is node " + fastest_node(dynamics) + "\n  likely cause: " +

@@ -18,7 +18,7 @@ namespace perideal
   {
     const auto         &nodes = *scene.nodes;
     std::vector<double> result;
-    if (parameters.model.boundary_compensation == "closed form")
+    if (parameters.model.boundary_compensation == BoundaryCompensation::closed_form)
       for (const auto &planes : find_surface_planes<dim>(nodes, scene.surface))
         {
           std::vector<double> depths;
@@ -30,7 +30,7 @@ namespace perideal
       {
         // Of a unit cell in a regular body, or of the sphere itself.
         const double whole =
-          scene.mesh->thickness * (parameters.model.boundary_compensation == "sphere" ?
+          scene.mesh->thickness * (parameters.model.boundary_compensation == BoundaryCompensation::sphere ?
                                      BondBased<dim>::sphere_moment(parameters.nodes.horizon_factor) :
                                      regular_first_moment<dim>(parameters.nodes, parameters.quadrature));
         for (LocalIndex i = 0; i < nodes.size(); ++i)
@@ -57,7 +57,7 @@ namespace perideal
                                                 scene.mesh->thickness);
 
     Stiffening stiffening;
-    stiffening.of_neighbour = parameters.model.compensation_of_a_bond == "neighbour";
+    stiffening.of_neighbour = parameters.model.compensation_of_a_bond == CompensationOfABond::neighbour;
     if (parameters.model.compensates())
       {
         NodalVector factor(families.make_partitioner(1));

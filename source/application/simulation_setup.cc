@@ -86,7 +86,8 @@ namespace perideal
     scene.nodes = std::make_unique<Nodes<dim>>(*scene.mesh, parameters.nodes);
     prepare_cells(parameters.quadrature, *scene.mesh, *scene.nodes);
     scene.faces = find_boundary_faces(*scene.mesh, *scene.nodes);
-    if (parameters.loads.act_in_depth() || parameters.model.boundary_compensation == "closed form")
+    if (parameters.loads.act_in_depth() ||
+        parameters.model.boundary_compensation == BoundaryCompensation::closed_form)
       scene.surface = gather_faces(scene.faces, communicator);
     if (parameters.loads.has_mirror())
       {

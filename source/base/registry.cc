@@ -47,11 +47,11 @@ namespace perideal
     return best;
   }
 
-  std::string join_choices(const std::vector<std::string> &names)
+  std::string join_choices(const std::vector<std::string> &names, const std::string &separator)
   {
     std::string text;
     for (const std::string &name : names)
-      text += (text.empty() ? "" : " | ") + name;
+      text += (text.empty() ? "" : separator) + name;
     return text;
   }
 } // namespace perideal

@@ -1,11 +1,40 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/materials/consistent.h>
+#include <perideal/materials/models.h>
 
 #include <cmath>
 
 namespace perideal
 {
+  const DiscretisationTraits &traits_of(const Discretisation discretisation)
+  {
+    static const DiscretisationTraits families, faces = {true, true, true, false};
+    return discretisation == Discretisation::faces ? faces : families;
+  }
+
+  FormTraits consistent_form()
+  {
+    // Of the smallest errors on plates with a hole: a larger stabilisation spoils coarse meshes, a smaller
+    // one the surface of the hole.
+    FormTraits result;
+    result.name                        = "consistent";
+    result.discretisation              = Discretisation::faces;
+    result.solvers                     = {false, false, false};
+    result.defaults.influence_function = "cubic spline";
+    result.defaults.stabilisation      = {{1.1, 0.5}};
+    return result;
+  }
+
+  void declare_stabilisation(dealii::ParameterHandler &prm, ModelParameters &parameters)
+  {
+    prm.add_parameter("Stabilisation",
+                      parameters.stabilisation,
+                      "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
+                      "in 3-D, where errors are smallest. Correspondence: alpha of the penalty over Young's "
+                      "modulus, >= 0 [-], 0: none; automatic: 5 with Form = family, as published, else 0.5");
+  }
+
   template <int dim>
   Consistent<dim>::Consistent(const InfluenceFunction &influence,
                               const double             stabilisation,

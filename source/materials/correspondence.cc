@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/materials/consistent.h>
 #include <perideal/materials/correspondence.h>
+#include <perideal/materials/models.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -79,6 +80,44 @@ namespace perideal
         weights.penalty[k] *= factor;
       }
   }
+
+  namespace
+  {
+    void declare(dealii::ParameterHandler &prm, ModelParameters &parameters)
+    {
+      prm.add_parameter(
+        "Law", parameters.law, "Correspondence: stress by deformation: " + meanings_of<LawTraits>());
+    }
+  } // namespace
+
+  namespace models
+  {
+    ModelTraits correspondence()
+    {
+      // Penalties: as published with the gradient of the family, of the smallest errors with that of the
+      // faces. Tangents serve statics and load steps.
+      FormTraits consistent = consistent_form(), family;
+      for (FormTraits *form : {&consistent, &family})
+        {
+          form->defaults.influence_function = "gaussian";
+          form->solvers                     = {true, false, false};
+        }
+      consistent.defaults.stabilisation = {{0.5, 0.5}};
+      family.name                       = "family";
+      family.meaning                    = "the deformation gradient by the bonds of the family, as published";
+      family.defaults.stabilisation     = {{5., 5.}};
+
+      ModelTraits result;
+      result.name               = "correspondence";
+      result.meaning            = "non-ordinary, the stresses of any Law, at large strain too";
+      result.forms              = {consistent, family};
+      result.default_forms      = {consistent.name, consistent.name, family.name};
+      result.takes_any_symmetry = true;
+      result.has_law            = true;
+      result.declare            = &declare;
+      return result;
+    }
+  } // namespace models
 
   PERIDEAL_INSTANTIATE_CLASS(Correspondence)
 } // namespace perideal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
-#include <perideal/base/registry.h>
 #include <perideal/materials/extended_ordinary.h>
+#include <perideal/materials/models.h>
 #include <perideal/materials/ordinary.h>
 
 #include <algorithm>
@@ -31,27 +31,7 @@ namespace perideal
         weight *= dim * (dim + 2) / (2. * trace);
       return weights;
     }
-
-    template <int dim>
-    const Registry<typename ExtendedOrdinary<dim>::Form> &forms()
-    {
-      using Form = typename ExtendedOrdinary<dim>::Form;
-      static const Registry<Form> list("Material/Form", {{"paper", Form::paper}, {"energy", Form::energy}});
-      return list;
-    }
   } // namespace
-
-  template <int dim>
-  std::vector<std::string> ExtendedOrdinary<dim>::form_names()
-  {
-    return forms<dim>().names();
-  }
-
-  template <int dim>
-  typename ExtendedOrdinary<dim>::Form ExtendedOrdinary<dim>::form_of(const std::string &name)
-  {
-    return forms<dim>().get(name);
-  }
 
   template <int dim>
   ExtendedOrdinary<dim>::ExtendedOrdinary(const Form               form,
@@ -63,14 +43,6 @@ namespace perideal
     , thickness(thickness)
     , negative(negative)
   {
-  }
-
-  template <int dim>
-  FamilyShape ExtendedOrdinary<dim>::shape() const
-  {
-    // The paper's force follows from theta alone; the energy's also needs
-    // q = sum_j wd e^d |xi| V_j.
-    return form == Form::paper ? FamilyShape{1, true} : FamilyShape{2, false};
   }
 
   template <int dim>
@@ -174,6 +146,63 @@ namespace perideal
     const double coupling = -2. * mu * family.node_volume / dim;
     coefficients.map      = {{family.node_volume * kappa - coupling * s / dim, coupling, 0.}};
   }
+
+  namespace
+  {
+    template <int dim, bool as_published>
+    std::unique_ptr<LinearModel<dim>>
+    create(const ModelParameters &parameters, const double thickness, const std::vector<double> &)
+    {
+      using Model = ExtendedOrdinary<dim>;
+      return std::make_unique<Model>(as_published ? Model::Form::paper : Model::Form::energy,
+                                     InfluenceFunction(parameters.influence_function),
+                                     thickness,
+                                     parameters.after_the_cut() ? Model::Negative::spherical :
+                                                                  Model::Negative::by_form);
+    }
+
+    void declare(dealii::ParameterHandler &prm, ModelParameters &parameters)
+    {
+      prm.add_parameter(
+        "Multipliers",
+        parameters.multipliers,
+        "Multipliers of the extended ordinary model where precracks cut bonds: intact: those of "
+        "the whole families; after the cut: those of what is left of them, with spherical "
+        "weights in families where any weight would be negative; recomputed: the same again and again as "
+        "bonds break (energy form in dynamics; slower, and the energy is kept less well)");
+    }
+  } // namespace
+
+  namespace models
+  {
+    ModelTraits extended_ordinary()
+    {
+      using Model = ExtendedOrdinary<2>;
+      FormTraits paper, energy;
+      // Families with a negative weight have the spherical ones in their force.
+      paper.name                    = "paper";
+      paper.meaning                 = "as published, not the gradient of an energy, non-symmetric";
+      paper.shape                   = Model::family_shape(Model::Form::paper);
+      paper.create                  = {&create<2, true>, &create<3, true>};
+      paper.follows_from_energy     = false;
+      paper.is_made_for_each_family = false;
+      paper.has_multipliers         = true;
+      energy.name                   = "energy";
+      energy.meaning                = "the gradient of the strain energy over bonds, symmetric";
+      energy.shape                  = Model::family_shape(Model::Form::energy);
+      energy.create                 = {&create<2, false>, &create<3, false>};
+      energy.has_multipliers        = true;
+
+      ModelTraits result;
+      result.name             = "extended ordinary";
+      result.meaning          = "with multipliers that make families of any shape exact for uniform strain";
+      result.forms            = {consistent_form(), energy, paper};
+      result.default_forms    = {consistent_form().name, energy.name, energy.name};
+      result.critical_stretch = &ordinary_critical_stretch;
+      result.declare          = &declare;
+      return result;
+    }
+  } // namespace models
 
   PERIDEAL_INSTANTIATE_CLASS(ExtendedOrdinary)
 } // namespace perideal

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/materials/models.h>
 #include <perideal/materials/ordinary.h>
+
+#include <deal.II/base/numbers.h>
 
 #include <cmath>
 
@@ -42,6 +45,47 @@ namespace perideal
       }
     coefficients.map = {{family.node_volume * (kappa - mu * (dim + 2) / dim), 0., 0.}};
   }
+
+  double ordinary_critical_stretch(const ElasticConstants &constants,
+                                   const double            fracture_energy,
+                                   const double            horizon)
+  {
+    using dealii::numbers::PI;
+    const double kappa = constants.bulk_modulus(), mu = constants.shear_modulus();
+    const double stiffness = constants.assumption == PlaneAssumption::solid ?
+                               3. * mu + std::pow(0.75, 4) * (kappa - 5. * mu / 3.) :
+                               6. * mu / PI + 16. / (9. * PI * PI) * (kappa - 2. * mu);
+    return std::sqrt(fracture_energy / (stiffness * horizon));
+  }
+
+  namespace
+  {
+    template <int dim>
+    std::unique_ptr<LinearModel<dim>>
+    create(const ModelParameters &parameters, const double thickness, const std::vector<double> &)
+    {
+      return std::make_unique<Ordinary<dim>>(InfluenceFunction(parameters.influence_function), thickness);
+    }
+  } // namespace
+
+  namespace models
+  {
+    ModelTraits ordinary()
+    {
+      FormTraits form;
+      form.shape                   = Ordinary<2>::family_shape();
+      form.create                  = {&create<2>, &create<3>};
+      form.is_made_for_each_family = false;
+
+      ModelTraits result;
+      result.name              = "ordinary";
+      result.meaning           = "state-based peridynamics without corrections";
+      result.forms             = {form};
+      result.critical_stretch  = &ordinary_critical_stretch;
+      result.corrects_surfaces = false;
+      return result;
+    }
+  } // namespace models
 
   PERIDEAL_INSTANTIATE(spherical_weights)
   PERIDEAL_INSTANTIATE_CLASS(Ordinary)

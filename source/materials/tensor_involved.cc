@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/least_squares.h>
+#include <perideal/materials/models.h>
 #include <perideal/materials/tensor_involved.h>
 
 #include <deal.II/base/numbers.h>
@@ -145,6 +146,60 @@ namespace perideal
       return (d * symmetrize(outer_product(xi, xi))) * eta / (length * length * length);
     };
   }
+
+  double tensor_critical_stretch(const ElasticConstants &constants,
+                                 const double            fracture_energy,
+                                 const double            horizon)
+  {
+    using dealii::numbers::PI;
+    const int    dim = constants.assumption == PlaneAssumption::solid ? 3 : 2;
+    const double resistance =
+      ((dim + 1) * constants.lame_lambda() + (dim + 3) * constants.shear_modulus()) / (dim + 2);
+    return std::sqrt((dim == 3 ? 2. : PI) * fracture_energy / (3. * resistance * horizon));
+  }
+  namespace
+  {
+    template <int dim, bool of_sphere>
+    std::unique_ptr<LinearModel<dim>>
+    create(const ModelParameters &, const double thickness, const std::vector<double> &)
+    {
+      using Moments = typename TensorInvolved<dim>::Moments;
+      return std::make_unique<TensorInvolved<dim>>(of_sphere ? Moments::sphere : Moments::family, thickness);
+    }
+  } // namespace
+
+  namespace models
+  {
+    ModelTraits tensor_involved()
+    {
+      FormTraits one_point, moment_corrected, surface_cure;
+      one_point.name                       = "one point";
+      one_point.meaning                    = "as published, made for full spheres";
+      one_point.shape                      = TensorInvolved<2>::family_shape();
+      one_point.create                     = {&create<2, true>, &create<3, true>};
+      one_point.bonds_know_only_their_ends = true;
+      one_point.is_made_for_each_family    = false;
+      moment_corrected.name                = "moment corrected";
+      moment_corrected.meaning             = "made for each family as its nodes stand";
+      moment_corrected.shape               = TensorInvolved<2>::family_shape();
+      moment_corrected.create              = {&create<2, false>, &create<3, false>};
+      surface_cure                         = moment_corrected;
+      surface_cure.name                    = "surface cure";
+      surface_cure.meaning                 = "that, with what bonds lack at free surfaces, in statics";
+      surface_cure.has_surface_cure        = true;
+      surface_cure.solvers                 = {false, false, false};
+
+      ModelTraits result;
+      result.name               = "tensor involved";
+      result.meaning            = "springs with tensors for stiffness, for solids of any symmetry";
+      result.forms              = {consistent_form(), one_point, moment_corrected, surface_cure};
+      result.default_forms      = {consistent_form().name, moment_corrected.name, moment_corrected.name};
+      result.takes_any_symmetry = true;
+      result.has_bond_tensors   = true;
+      result.critical_stretch   = &tensor_critical_stretch;
+      return result;
+    }
+  } // namespace models
 
   PERIDEAL_INSTANTIATE_CLASS(TensorInvolved)
 } // namespace perideal

@@ -37,9 +37,10 @@ namespace perideal
       declare("Tensile strength",
               properties.tensile_strength,
               "Strength in uniaxial tension f_t >= 0 [Pa], of a Failure criterion; 0: unbreakable");
-      declare("Compressive strength",
-              properties.compressive_strength,
-              "Strength in uniaxial compression f_c >= f_t [Pa], of Failure criterion = Mohr-Coulomb");
+      declare(
+        "Compressive strength",
+        properties.compressive_strength,
+        "Strength in uniaxial compression f_c >= f_t [Pa], of a Failure criterion that has both strengths");
     }
 
     void check_properties(const MaterialProperties &properties,
@@ -94,10 +95,9 @@ namespace perideal
     prm.add_parameter(
       "Failure criterion",
       failure_criterion,
-      "By which stress bonds of Model = correspondence break, the mean of that at their ends: "
-      "none; maximum tensile stress: where the largest principal stress reaches Tensile "
-      "strength; Mohr-Coulomb: where sigma_1/f_t - sigma_3/f_c reaches 1, which has both "
-      "strengths. Principal stresses are those in space. Bonds of other models break by stretch");
+      "By which stress bonds of Model = correspondence break, the mean of that at their ends: " +
+        meanings_of<StressCriterionTraits>() +
+        ". Principal stresses are those in space. Bonds of other models break by stretch");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
@@ -150,12 +150,12 @@ namespace perideal
           .parameter(section + (material.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
           .allowed("0 for Failure criterion = " + name_of(failure_criterion)));
     // Weaker in compression, sin(phi) = (f_c - f_t)/(f_c + f_t) would be negative.
-    if (failure_criterion == FailureCriterion::mohr_coulomb && material.tensile_strength > 0 &&
+    if (failure_criterion->has_compressive_strength && material.tensile_strength > 0 &&
         !(material.compressive_strength >= material.tensile_strength))
       errors.add(
         InputError("the angle of internal friction follows from both strengths, and would be negative")
           .parameter(section + "/Compressive strength")
-          .allowed("a number >= Tensile strength for Failure criterion = Mohr-Coulomb"));
+          .allowed("a number >= Tensile strength for Failure criterion = " + name_of(failure_criterion)));
     errors.raise();
   }
 

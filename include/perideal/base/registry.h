@@ -15,7 +15,7 @@ namespace perideal
   std::string nearest_name(const std::string &given, const std::vector<std::string> &candidates);
 
   /// "a | b | c", the form in which lists of choices are shown.
-  std::string join_choices(const std::vector<std::string> &names);
+  std::string join_choices(const std::vector<std::string> &names, const std::string &separator = " | ");
 
   /**
    * An ordered list of named choices. Each room with variants (models,
@@ -32,6 +32,9 @@ namespace perideal
       , items(std::move(items))
     {
     }
+
+    auto begin() const { return items.begin(); }
+    auto end() const { return items.end(); }
 
     std::vector<std::string> names() const
     {

@@ -5,8 +5,16 @@
 #include <perideal/materials/linear_model.h>
 #include <perideal/parameters/elastic_constants.h>
 
+#include <functional>
+
 namespace perideal
 {
+  /// The force of a spring, T = c(|xi|) s, on its near end.
+  /// @param micromodulus c of a bond's length [m] at rest [N/m^6]
+  template <int dim>
+  PairForce<dim> spring_force(const std::function<double(const double)>  &micromodulus,
+                              const typename LinearModel<dim>::Kinematics kinematics);
+
   /**
    * The prototype microelastic brittle material (PMB): each bond is a spring, T = c s, with
    * the stretch s = e/|xi| and the micromodulus
@@ -25,7 +33,9 @@ namespace perideal
     ///   empty: none
     explicit BondBased(const double thickness, const std::vector<double> &stiffening = {});
 
-    FamilyShape    shape() const override { return {0, false}; }
+    static FamilyShape family_shape() { return {0, false}; }
+
+    FamilyShape    shape() const override { return family_shape(); }
     bool           is_symmetric() const override { return true; }
     bool           depends_on_node() const override { return !stiffening.empty(); }
     void           compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;

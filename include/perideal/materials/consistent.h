@@ -4,6 +4,7 @@
 
 #include <perideal/materials/influence_function.h>
 #include <perideal/materials/linear_model.h>
+#include <perideal/materials/traits.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -11,6 +12,13 @@
 
 namespace perideal
 {
+  /// The form of any model whose strains come from the faces of the mesh, as Material/Form = consistent
+  /// names it: of linear statics, with the stabilisation of Consistent.
+  FormTraits consistent_form();
+
+  /// Declares Material/Stabilisation.
+  void declare_stabilisation(dealii::ParameterHandler &prm, ModelParameters &parameters);
+
   /**
    * The consistent form of extended ordinary state-based peridynamics: the
    * energy of XOSB (22) with the strain of the family taken from the face
@@ -31,11 +39,6 @@ namespace perideal
   class Consistent
   {
   public:
-    /// Stabilisation s and influence function of the smallest errors, found on
-    /// plates with a hole: larger s spoils coarse meshes, smaller s the surface of the hole.
-    static constexpr double      best_stabilisation = dim == 2 ? 1.1 : 0.5;
-    static constexpr const char *best_influence     = "cubic spline";
-
     /// @param stabilisation s [-]
     /// @param horizon_factor horizon over spacing [-]
     Consistent(const InfluenceFunction &influence, const double stabilisation, const double horizon_factor);

@@ -38,14 +38,6 @@ namespace perideal
   class Correspondence
   {
   public:
-    /// alpha over Young's modulus: as published with the family's gradient, and of the smallest errors with
-    /// the consistent one.
-    static constexpr double      published_stabilisation = 5., best_stabilisation = 0.5;
-    static constexpr const char *published_influence = "gaussian";
-
-    /// Names of the gradients.
-    static std::vector<std::string> form_names() { return {"consistent", "family"}; }
-
     /// @param stabilisation alpha over Young's modulus [-]; 0: motions that G does not see are free
     Correspondence(const InfluenceFunction &influence, const double stabilisation);
 

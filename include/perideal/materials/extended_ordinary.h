@@ -48,16 +48,18 @@ namespace perideal
       spherical
     };
 
-    static std::vector<std::string> form_names();
-    /// @throws InputError on another name.
-    static Form form_of(const std::string &name);
+    /// The paper's force follows from theta alone; the energy's also needs q = sum_j wd e^d |xi| V_j.
+    static FamilyShape family_shape(const Form form)
+    {
+      return form == Form::paper ? FamilyShape{1, true} : FamilyShape{2, false};
+    }
 
     ExtendedOrdinary(const Form               form,
                      const InfluenceFunction &influence,
                      const double             thickness,
                      const Negative           negative = Negative::by_form);
 
-    FamilyShape shape() const override;
+    FamilyShape shape() const override { return family_shape(form); }
     bool        is_symmetric() const override { return form == Form::energy; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 

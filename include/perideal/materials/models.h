@@ -5,7 +5,10 @@
 #include <perideal/materials/consistent.h>
 #include <perideal/materials/correspondence.h>
 #include <perideal/materials/linear_model.h>
+#include <perideal/materials/traits.h>
+#include <perideal/parameters/choice.h>
 #include <perideal/parameters/elastic_constants.h>
+#include <perideal/parameters/hyperelastic_law.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -15,34 +18,85 @@
 
 namespace perideal
 {
+  /// Of which families multipliers are: the whole ones, or those without the bonds that precracks cut, or
+  /// without those that broke as well.
+  enum class Multipliers
+  {
+    intact,
+    after_the_cut,
+    recomputed
+  };
+
+  template <>
+  struct ChoiceNames<Multipliers>
+  {
+    static constexpr const char *list[] = {"intact", "after the cut", "recomputed"};
+  };
+
+  /// How bonds are stiffened near the surface.
+  enum class BoundaryCompensation
+  {
+    none,
+    numerical,
+    sphere,
+    closed_form
+  };
+
+  template <>
+  struct ChoiceNames<BoundaryCompensation>
+  {
+    static constexpr const char *list[] = {"none", "numerical", "sphere", "closed form"};
+  };
+
+  /// Which end's factor a stiffened bond has.
+  enum class CompensationOfABond
+  {
+    mean,
+    neighbour
+  };
+
+  template <>
+  struct ChoiceNames<CompensationOfABond>
+  {
+    static constexpr const char *list[] = {"mean", "neighbour"};
+  };
+
+  /// Whose critical stretch a fracture energy means.
+  enum class StretchFormula
+  {
+    automatic,
+    ordinary,
+    tensor_involved
+  };
+
+  template <>
+  struct ChoiceNames<StretchFormula>
+  {
+    static constexpr const char *list[] = {"automatic", "ordinary", "tensor involved"};
+  };
+
   /// The choices of sections "Material" and "Nodes" that say what a bond does.
   struct ModelParameters
   {
-    std::string model              = "extended ordinary";
+    ModelChoice model              = "extended ordinary";
     std::string form               = "automatic";
     std::string influence_function = "automatic";
     std::string stabilisation      = "automatic";
-    /// Of the correspondence model: linear elastic | Saint Venant-Kirchhoff | neo-Hookean.
-    std::string law = "linear elastic";
-    /// intact | after the cut | recomputed: whether multipliers are those of families with the bonds that
-    /// precracks cut, and that broke.
-    std::string multipliers = "intact";
-
-    /// none | numerical | sphere | closed form: how bonds are stiffened near the surface.
-    std::string boundary_compensation = "none";
-    /// mean | neighbour: which end's factor a bond has.
-    std::string compensation_of_a_bond = "mean";
-
-    /// ordinary | tensor involved: whose critical stretch a fracture energy means.
-    std::string stretch_formula = "automatic";
+    /// Of models that follow a law.
+    LawChoice            law                    = "linear elastic";
+    Multipliers          multipliers            = Multipliers::intact;
+    BoundaryCompensation boundary_compensation  = BoundaryCompensation::none;
+    CompensationOfABond  compensation_of_a_bond = CompensationOfABond::mean;
+    StretchFormula       stretch_formula        = StretchFormula::automatic;
 
     void declare(dealii::ParameterHandler &prm);
 
-    /// Whether bonds break and move, or are those of linear statics.
+    /// Whether bonds are those of linear statics, move or follow load steps, or break or are cut.
     enum class Use
     {
       statics,
-      motion
+      motion,
+      failure
     };
 
     /// Puts what serves the model best in the place of "automatic".
@@ -50,43 +104,53 @@ namespace perideal
     /// model without.
     void resolve(const int dimension, const Use use = Use::statics);
 
+    /// What the chosen form says of itself; as long as it is "automatic", or none of the model, what forms
+    /// are unless they say otherwise.
+    const FormTraits &form_traits() const;
+
+    Discretisation discretisation() const { return form_traits().discretisation; }
+
+    /// The name of the chosen form; empty where the model has one only.
+    std::string form_name() const { return has_forms() ? form : std::string(); }
+
     /// Takes the strain from the face gradient of the mesh, and boundary conditions at faces.
-    bool is_consistent() const { return has_forms() && form == "consistent"; }
+    bool is_consistent() const { return discretisation() == Discretisation::faces; }
 
     /// Stresses of any law of the continuum; no LinearModel.
-    bool is_correspondence() const { return model == "correspondence"; }
+    bool is_correspondence() const { return model->has_law; }
 
-    /// Bonds for solids of any symmetry.
-    bool is_tensor_involved() const { return model == "tensor involved"; }
+    /// Bonds that pull sideways, and do not turn freely.
+    bool is_tensor_involved() const { return model->has_bond_tensors; }
 
     /// Bonds with what they lack at surfaces, by the face gradient.
-    bool has_surface_cure() const { return is_tensor_involved() && form == "surface cure"; }
+    bool has_surface_cure() const { return form_traits().has_surface_cure; }
 
     /// Forms of the model whose bonds can break and move.
     std::vector<std::string> forms_of_motion() const;
 
-    /// Forms that are linear and of statics only.
-    bool is_linear_only() const { return (is_consistent() && !is_correspondence()) || has_surface_cure(); }
+    /// Serves linear statics only.
+    bool is_linear_only() const { return !form_traits().solvers.quasi_statics; }
 
-    bool compensates() const { return boundary_compensation != "none"; }
+    bool compensates() const { return boundary_compensation != BoundaryCompensation::none; }
 
-    bool has_forms() const
-    {
-      return model == "extended ordinary" || is_tensor_involved() || is_correspondence();
-    }
+    bool has_forms() const { return model->forms.size() > 1; }
 
     /// Solids without isotropy.
-    bool takes_any_symmetry() const { return is_tensor_involved() || is_correspondence(); }
+    bool takes_any_symmetry() const { return model->takes_any_symmetry; }
 
-    /// Names of the model's own forms.
-    std::vector<std::string> own_forms() const;
-
-    bool after_the_cut() const { return multipliers != "intact"; }
-    bool recomputes() const { return multipliers == "recomputed"; }
+    bool after_the_cut() const { return multipliers != Multipliers::intact; }
+    bool recomputes() const { return multipliers == Multipliers::recomputed; }
 
     /// The constants that the model has where it cannot have those asked for: a
     /// bond-based body keeps Young's modulus, Poisson's ratio is its own.
     ElasticConstants constants_of_model(const ElasticConstants &constants) const;
+
+    /// The critical stretch [-] that a fracture energy means, of a model that breaks by stretch.
+    /// @param given constants of the (nearest isotropic) solid
+    /// @param fracture_energy [J/m^2]
+    /// @param horizon [m]
+    double
+    critical_stretch(const ElasticConstants &given, const double fracture_energy, const double horizon) const;
   };
 
   /// The consistent form, of resolved parameters.

@@ -28,7 +28,9 @@ namespace perideal
   public:
     Ordinary(const InfluenceFunction &influence, const double thickness);
 
-    FamilyShape shape() const override { return {1, false}; }
+    static FamilyShape family_shape() { return {1, false}; }
+
+    FamilyShape shape() const override { return family_shape(); }
     bool        is_symmetric() const override { return true; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 
@@ -37,6 +39,23 @@ namespace perideal
     double              thickness;
     std::vector<double> weights;
   };
+
+  /**
+   * Stretch at which a bond of an ordinary state-based material breaks, so that
+   * opening a unit of crack surface takes the fracture energy [-].
+   *
+   *     3-D: s0^2 = G0 / ((3 mu + (3/4)^4 (kappa - 5 mu/3)) horizon)
+   *     2-D: s0^2 = G0 / ((6 mu/pi + 16/(9 pi^2) (kappa - 2 mu)) horizon)
+   *
+   * (TIPD eqs. 43 and 56, where G stands for G0; Madenci and Oterkus 2014.) It is that of springs where
+   * Poisson's ratio is theirs.
+   *
+   * @param fracture_energy G0 [J/m^2]
+   * @param horizon [m]
+   */
+  double ordinary_critical_stretch(const ElasticConstants &constants,
+                                   const double            fracture_energy,
+                                   const double            horizon);
 } // namespace perideal
 
 #endif

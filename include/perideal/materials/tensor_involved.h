@@ -47,9 +47,9 @@ namespace perideal
     /// @param thickness of a two-dimensional body [m], 1 in 3-D
     TensorInvolved(const Moments moments, const double thickness);
 
-    static std::vector<std::string> form_names() { return {"one point", "moment corrected", "surface cure"}; }
+    static FamilyShape family_shape() { return {0, false, true}; }
 
-    FamilyShape shape() const override { return {0, false, true}; }
+    FamilyShape shape() const override { return family_shape(); }
     bool        is_symmetric() const override { return true; }
     void        compute(const FamilyView<dim> &family, FamilyCoefficients &coefficients) override;
 
@@ -79,6 +79,22 @@ namespace perideal
     Moments moments;
     double  thickness;
   };
+
+  /**
+   * The critical stretch of tensor-involved bonds (TIPD eqs. 41 and 54, and for any symmetry):
+   *
+   *     3-D: s0^2 = 2 G0 / (3 B horizon),   2-D: s0^2 = pi G0 / (3 B horizon),
+   *     B = ((dim+1) lambda + (dim+3) mu)/(dim+2),
+   *
+   * B being what a full sphere of bonds resists a stretch with, on the mean over the directions. That depends
+   * on the traces of the stiffness only, which the nearest isotropic solid has in common with an anisotropic
+   * one; there, a crack takes more than G0 across stiff directions and less across soft ones.
+   *
+   * @param constants of the nearest isotropic solid
+   */
+  double tensor_critical_stretch(const ElasticConstants &constants,
+                                 const double            fracture_energy,
+                                 const double            horizon);
 } // namespace perideal
 
 #endif

@@ -3,6 +3,7 @@
 #define perideal_parameters_hyperelastic_law_h
 
 #include <perideal/parameters/elastic_solid.h>
+#include <perideal/parameters/listed.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -11,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace perideal
@@ -52,15 +54,29 @@ namespace perideal
   template <int dim>
   using LawsByMaterial = std::map<dealii::types::material_id, std::shared_ptr<const HyperelasticLaw<dim>>>;
 
-  /// The laws that there are: linear elastic, Saint Venant-Kirchhoff, neo-Hookean.
-  std::vector<std::string> law_names();
-
-  /// Whether a law of that name takes solids without isotropy.
-  bool takes_any_symmetry(const std::string &law);
-
-  /// @throws InputError on an unknown name, or a solid that the law does not take.
   template <int dim>
-  std::shared_ptr<const HyperelasticLaw<dim>> create_law(const std::string       &name,
+  using CreateLaw = std::shared_ptr<const HyperelasticLaw<dim>> (*)(const ElasticSolid<dim> &solid);
+
+  /// What a law says of itself, in its own file.
+  struct LawTraits
+  {
+    /// Name, and for lists of parameters the rest of "NAME: ...".
+    std::string name, meaning;
+    /// Solids without isotropy are welcome.
+    bool takes_any_symmetry = false;
+    /// The tangent is that at rest, and strains are small.
+    bool is_linear = false;
+    /// Creates it in 2-D and 3-D.
+    std::tuple<CreateLaw<2>, CreateLaw<3>> create = {};
+  };
+
+  using LawChoice = Listed<LawTraits>;
+  template <>
+  const Registry<LawTraits> &LawChoice::list();
+
+  /// @throws InputError on a solid that the law does not take.
+  template <int dim>
+  std::shared_ptr<const HyperelasticLaw<dim>> create_law(const LawChoice         &law,
                                                          const ElasticSolid<dim> &solid);
 } // namespace perideal
 

@@ -4,6 +4,7 @@
 
 #include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/elastic_symmetry.h>
+#include <perideal/parameters/stress_criteria.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -13,20 +14,6 @@
 namespace perideal
 {
   class ParameterFile;
-
-  /// By which stress bonds break.
-  enum class FailureCriterion
-  {
-    none,
-    maximum_tensile_stress,
-    mohr_coulomb
-  };
-
-  template <>
-  struct ChoiceNames<FailureCriterion>
-  {
-    static constexpr const char *list[] = {"none", "maximum tensile stress", "Mohr-Coulomb"};
-  };
 
   /// What one material is made of.
   struct MaterialProperties
@@ -56,8 +43,9 @@ namespace perideal
   struct MaterialParameters
   {
     /// Of interest in 2-D only.
-    PlaneAssumption  assumption        = PlaneAssumption::plane_stress;
-    FailureCriterion failure_criterion = FailureCriterion::none;
+    PlaneAssumption assumption = PlaneAssumption::plane_stress;
+    /// By which stress bonds break.
+    FailureCriterion failure_criterion = "none";
     /// Properties of cells in no named group.
     MaterialProperties body;
     /// Properties by physical group name (or id).
@@ -71,7 +59,7 @@ namespace perideal
     void check(const int dim) const;
 
     /// Whether bonds break by stress.
-    bool has_criterion() const { return failure_criterion != FailureCriterion::none; }
+    bool has_criterion() const { return failure_criterion->utilisation != nullptr; }
 
     /// What a material is in @p dim dimensions.
     /// @throws InputError as check().

@@ -323,7 +323,7 @@ TEST(BondForce, WeighsFamiliesAfterTheCut)
       SCOPED_TRACE(form);
       ModelParameters parameters;
       parameters.form        = form;
-      parameters.multipliers = "after the cut";
+      parameters.multipliers = Multipliers::after_the_cut;
       parameters.resolve(2);
       const auto solid_of = [](const dealii::types::material_id) {
         return ElasticSolid<2>(ElasticConstants::of_moduli(1., 0.6, PlaneAssumption::plane_strain));
@@ -377,7 +377,7 @@ TEST(BondForce, WeighsFamiliesOfNothing)
   const test::Body<2> body(*mesh);
   ModelParameters     parameters;
   parameters.form        = "energy";
-  parameters.multipliers = "after the cut";
+  parameters.multipliers = Multipliers::after_the_cut;
   parameters.resolve(2);
   const auto all   = [](const dealii::Point<2> &, const dealii::Point<2> &) { return true; };
   const auto bonds = create_bond_force<2>(*weigh_bonds<2>(
@@ -401,7 +401,7 @@ TEST(BondForce, WeighsFamiliesOfNothing)
 TEST(BondForce, OnlyMultipliersCanBeThoseAfterTheCut)
 {
   ModelParameters parameters;
-  parameters.multipliers = "after the cut";
+  parameters.multipliers = Multipliers::after_the_cut;
   for (const std::string model : {"bond based", "ordinary"})
     {
       parameters.model = model;

@@ -134,7 +134,7 @@ namespace
   {
     for (const auto &mesh : test::make_boxes<dim>())
       for (const char *form : forms)
-        for (const std::string &law : law_names())
+        for (const std::string &law : LawChoice::list().names())
           {
             SCOPED_TRACE(std::string(form) + ", " + law + ", " +
                          std::to_string(mesh->triangulation.n_global_active_cells()) + " cells");
@@ -217,7 +217,7 @@ namespace
   {
     // A uniform gradient on any mesh leaves no force, and the supports that of the stress.
     for (const auto &mesh : test::make_boxes<dim>())
-      for (const std::string &law : law_names())
+      for (const std::string &law : LawChoice::list().names())
         {
           CorrespondenceBody<dim> b(*mesh, "consistent", law, stretch_and_shear<dim>());
           b.displace();

@@ -45,7 +45,7 @@ namespace
   template <int dim, typename Check>
   void for_all_laws(const Check &check)
   {
-    for (const std::string &name : law_names())
+    for (const std::string &name : LawChoice::list().names())
       for (const auto &constants : all_constants<dim>())
         {
           SCOPED_TRACE(name + ", nu = " + std::to_string(constants.poisson_ratio));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/fracture/critical_stretch.h>
+#include <perideal/materials/ordinary.h>
+#include <perideal/materials/tensor_involved.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/fracture/stress_criteria.h>
+#include <perideal/parameters/material_parameters.h>
+#include <perideal/parameters/stress_criteria.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/physics/transformations.h>
@@ -16,8 +17,7 @@ namespace
 
   // Those of the double-edge-notched specimen (VNOSB table 1).
   const double          f_t = 3e6, f_c = 38.4e6;
-  const StressCriterion rankine(FailureCriterion::maximum_tensile_stress, f_t, 0.),
-    coulomb(FailureCriterion::mohr_coulomb, f_t, f_c);
+  const StressCriterion rankine("maximum tensile stress", f_t, 0.), coulomb("Mohr-Coulomb", f_t, f_c);
 
   Stress principal(const double s1, const double s2, const double s3)
   {
@@ -93,13 +93,13 @@ TEST(StressCriteria, OfAMaterialOfAScene)
   MaterialParameters parameters;
   const Stress       pull = principal(f_t, 0., 0.);
   EXPECT_FALSE(stress_criterion(parameters, parameters.body).can_fail());
-  parameters.failure_criterion = FailureCriterion::maximum_tensile_stress;
+  parameters.failure_criterion = "maximum tensile stress";
   EXPECT_FALSE(stress_criterion(parameters, parameters.body).can_fail()) << "no strength: unbreakable";
   EXPECT_EQ(stress_criterion(parameters, parameters.body).utilisation(pull), 0.);
   parameters.body.tensile_strength = 2 * f_t;
   EXPECT_TRUE(stress_criterion(parameters, parameters.body).can_fail());
   EXPECT_NEAR(stress_criterion(parameters, parameters.body).utilisation(pull), 0.5, precision);
-  parameters.failure_criterion         = FailureCriterion::mohr_coulomb;
+  parameters.failure_criterion         = "Mohr-Coulomb";
   parameters.body.compressive_strength = f_c;
   EXPECT_NEAR(
     stress_criterion(parameters, parameters.body).utilisation(principal(0., 0., -f_c)), 1., precision);
