@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/fracture/fragments.h>
+#include <perideal/neighbourhood/components.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -18,52 +19,30 @@ namespace perideal
                                      const std::vector<double> &damage,
                                      const double               damaged)
   {
-    // Each node takes the smallest number of the nodes connected with it; -1 is damaged.
-    NodalVector label(families.make_partitioner(1));
+    NodalVector of_all_nodes(families.make_partitioner(1));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      label.local_element(i) = damage[i] < damaged ? double(families.global_number(i)) : -1.;
+      of_all_nodes.local_element(i) = damage[i];
+    of_all_nodes.update_ghost_values();
+    const auto is_whole = [&](const LocalIndex i) { return of_all_nodes.local_element(i) < damaged; };
     // Horizons are the same multiple of the spacing everywhere.
     const double reach =
       families.n_owned() > 0 ? 1.1 * std::sqrt(double(dim)) * spacing[0] / families.horizon[0] : 0.;
-    for (unsigned int changed = 1; changed > 0;)
-      {
-        label.update_ghost_values();
-        changed              = 0;
-        bool changed_in_here = true;
-        while (changed_in_here)
-          {
-            changed_in_here = false;
-            for (LocalIndex i = 0; i < families.n_owned(); ++i)
-              for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-                {
-                  const LocalIndex j = bonds.neighbour[slot];
-                  double           a = label.local_element(i), b = label.local_element(j);
-                  if (a == b || a < 0 || b < 0 ||
-                      families.position[i].distance(families.position[j]) >
-                        reach * std::max(families.horizon[i], families.horizon[j]))
-                    continue;
-                  label.local_element(i) = label.local_element(j) = std::min(a, b);
-                  if (j < families.n_owned() || b < a)
-                    {
-                      changed_in_here = true;
-                      changed         = 1;
-                    }
-                }
-          }
-        label.zero_out_ghost_values();
-        changed = dealii::Utilities::MPI::max(changed, families.communicator);
-      }
+    const auto component =
+      find_components<dim>(families, bonds, [&](const LocalIndex i, const LocalIndex j, const BondIndex) {
+        return is_whole(i) && is_whole(j) &&
+               families.position[i].distance(families.position[j]) <=
+                 reach * std::max(families.horizon[i], families.horizon[j]);
+      });
 
-    std::map<double, double> volumes;
-    double                   total = 0;
+    std::map<GlobalIndex, double> volumes, of_all;
+    double                        total = 0;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
         total += families.volume[i];
-        if (label.local_element(i) >= 0)
-          volumes[label.local_element(i)] += families.volume[i];
+        if (is_whole(i))
+          volumes[component[i]] += families.volume[i];
       }
     total = dealii::Utilities::MPI::sum(total, families.communicator);
-    std::map<double, double> of_all;
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(families.communicator, volumes))
       for (const auto &piece : of_rank)
         of_all[piece.first] += piece.second;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/types.h>
+#include <perideal/neighbourhood/components.h>
 #include <perideal/neighbourhood/connected_parts.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/pending/disjoint_sets.hpp>
-
 #include <algorithm>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -16,34 +14,6 @@ namespace perideal
 {
   namespace
   {
-    /// Things that are joined one by one.
-    class Unions
-    {
-    public:
-      explicit Unions(const unsigned int size)
-        : size(size)
-        , sets(size)
-      {
-      }
-
-      void join(const unsigned int a, const unsigned int b) { sets.union_set(a, b); }
-
-      /// Number of the set of each thing, from 0, and how many sets there are.
-      std::pair<std::vector<unsigned int>, unsigned int> number()
-      {
-        std::map<unsigned int, unsigned int> of_leader;
-        std::vector<unsigned int>            result(size);
-        for (unsigned int k = 0; k < size; ++k)
-          result[k] =
-            of_leader.insert({sets.find_set(k), static_cast<unsigned int>(of_leader.size())}).first->second;
-        return {result, static_cast<unsigned int>(of_leader.size())};
-      }
-
-    private:
-      unsigned int                        size;
-      boost::disjoint_sets_with_storage<> sets;
-    };
-
     /// Marks nodes that are no cells': images and nodes on the surface.
     constexpr unsigned int no_part = -1;
   } // namespace
@@ -52,7 +22,7 @@ namespace perideal
   std::vector<unsigned int> ConnectedParts<dim>::parts_of_coarse_cells(const Mesh<dim> &mesh)
   {
     // Every rank has all coarse cells, and refinement joins and parts nothing.
-    Unions cells(mesh.triangulation.n_cells(0));
+    Components cells(mesh.triangulation.n_cells(0));
     for (const auto &cell : mesh.triangulation.cell_iterators_on_level(0))
       for (const unsigned int f : cell->face_indices())
         if (!cell->at_boundary(f))
@@ -105,11 +75,8 @@ namespace perideal
             ++n_ends;
           }
     n_bonds_across = dealii::Utilities::MPI::sum(n_ends, families.communicator) / 2;
-    const std::vector<std::pair<unsigned int, unsigned int>> mine(found.begin(), found.end());
-    Unions                                                   parts(n_parts);
-    for (const auto &pairs : dealii::Utilities::MPI::all_gather(families.communicator, mine))
-      for (const auto &[a, b] : pairs)
-        parts.join(a, b);
+    Components parts(n_parts);
+    parts.join_all(found, families.communicator);
     const auto numbered = parts.number();
     n_bodies            = numbered.second;
     body_of_node.resize(families.n_owned());
