@@ -7,7 +7,8 @@
 #define PERIDEAL_LAWS(LAW)                                                                                   \
   LAW(linear_elastic)                                                                                        \
   LAW(saint_venant_kirchhoff)                                                                                \
-  LAW(neo_hookean)
+  LAW(neo_hookean)                                                                                           \
+  LAW(hencky)
 
 namespace perideal
 {

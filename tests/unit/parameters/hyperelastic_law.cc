@@ -122,7 +122,7 @@ TEST(HyperelasticLaw, CauchyStressIsThatOfTheFirstPiolaKirchhoffStress)
       for (unsigned int j = 0; j < H.dimension; ++j)
         EXPECT_NEAR(cauchy[i][j], pushed[i][j], 1e-10 * E);
   };
-  for (const char *name : {"Saint Venant-Kirchhoff", "neo-Hookean"})
+  for (const char *name : {"Saint Venant-Kirchhoff", "neo-Hookean", "Hencky"})
     {
       SCOPED_TRACE(name);
       for (const auto &constants : all_constants<2>())
@@ -147,7 +147,7 @@ TEST(HyperelasticLaw, CauchyStressIsThatOfTheFirstPiolaKirchhoffStress)
 TEST(HyperelasticLaw, PlaneStressIsThatOfTheThicknessItFinds)
 {
   // The plane law is the one in space with the stretch across that leaves no stress there.
-  for (const char *name : {"Saint Venant-Kirchhoff", "neo-Hookean"})
+  for (const char *name : {"Saint Venant-Kirchhoff", "neo-Hookean", "Hencky"})
     for (const auto &H : gradients<2>())
       {
         const auto plane =
@@ -177,18 +177,37 @@ TEST(HyperelasticLaw, RotationsCostNothingWhereStrainsAreFinite)
   const ElasticSolid<2> solid(ElasticConstants{E, nu, PlaneAssumption::plane_stress});
   EXPECT_NEAR(create_law<2>("Saint Venant-Kirchhoff", solid)->energy(H), 0., 1e-14 * E);
   EXPECT_NEAR(create_law<2>("neo-Hookean", solid)->energy(H), 0., 1e-14 * E);
+  EXPECT_NEAR(create_law<2>("Hencky", solid)->energy(H), 0., 1e-14 * E);
   EXPECT_GT(create_law<2>("linear elastic", solid)->energy(H), 0.1 * E);
 }
 
-TEST(HyperelasticLaw, NeoHookeanAdmitsNoBodyPressedThroughItself)
+TEST(HyperelasticLaw, LogarithmsAdmitNoBodyPressedThroughItself)
 {
   Gradient<2> H;
   H[0][0] = -1.5;
-  for (const auto &constants : all_constants<2>())
+  for (const char *name : {"neo-Hookean", "Hencky"})
+    for (const auto &constants : all_constants<2>())
+      {
+        const auto law = create_law<2>(name, ElasticSolid<2>(constants));
+        EXPECT_TRUE(std::isinf(law->energy(H)));
+        EXPECT_TRUE(std::isnan(law->stress(H)[0][0]));
+      }
+}
+
+TEST(HyperelasticLaw, HenckysStressIsLinearInTheLogarithmOfAStretch)
+{
+  // A bar pulled to twice its length or pressed to a half, free across: tau = E ln(stretch), nu of
+  // logarithms.
+  for (const double stretch : {2., 0.5})
     {
-      const auto law = create_law<2>("neo-Hookean", ElasticSolid<2>(constants));
-      EXPECT_TRUE(std::isinf(law->energy(H)));
-      EXPECT_TRUE(std::isnan(law->stress(H)[0][0]));
+      Gradient<3> H;
+      H[0][0] = stretch - 1.;
+      H[1][1] = H[2][2] = std::pow(stretch, -nu) - 1.;
+      const auto law =
+        create_law<3>("Hencky", ElasticSolid<3>(ElasticConstants{E, nu, PlaneAssumption::solid}));
+      const double J = std::pow(stretch, 1. - 2. * nu);
+      EXPECT_NEAR(J * law->cauchy_stress(H)[0][0], E * std::log(stretch), 1e-12 * E);
+      EXPECT_NEAR(law->cauchy_stress(H)[1][1], 0., 1e-12 * E);
     }
 }
 
