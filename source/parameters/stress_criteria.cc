@@ -2,6 +2,8 @@
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/stress_criteria.h>
 
+#include <cmath>
+
 namespace perideal
 {
   namespace
@@ -27,6 +29,16 @@ namespace perideal
       const auto principal = dealii::eigenvalues(stress);
       return 1. / tensile * principal[0] - 1. / compressive * principal[2];
     }
+
+    /// (sqrt(J_2) + a I_1) / k (Drucker and Prager 1952), I_1 the trace of the stress, J_2 half the square of
+    /// its deviator, with the a = (f_c - f_t)/(sqrt(3) (f_c + f_t)) and k = 2 f_c f_t/(sqrt(3) (f_c + f_t))
+    /// that make both uniaxial strengths come out. Equal strengths are those of von Mises.
+    double drucker_prager(const Stress &stress, const double tensile, const double compressive)
+    {
+      const double von_mises = std::sqrt(1.5) * deviator(stress).norm();
+      return ((compressive + tensile) * von_mises + (compressive - tensile) * trace(stress)) /
+             (2. * compressive * tensile);
+    }
   } // namespace
 
   /// The list of criteria: a new one is one function and one line here.
@@ -43,7 +55,11 @@ namespace perideal
        {"Mohr-Coulomb",
         "where sigma_1/f_t - sigma_3/f_c reaches 1, which has both strengths",
         true,
-        &mohr_coulomb}});
+        &mohr_coulomb},
+       {"Drucker-Prager",
+        "a cone about the line of equal principal stresses, by both strengths",
+        true,
+        &drucker_prager}});
     return criteria;
   }
 

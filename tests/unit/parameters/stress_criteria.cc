@@ -88,6 +88,37 @@ TEST(StressCriteria, MohrCoulombIsTheLineOfItsCohesionAndAngle)
   EXPECT_NEAR(f_c / 2, c * cosine + f_c / 2 * sine, 1e-6 * f_c) << "a pull of f_c would";
 }
 
+TEST(StressCriteria, DruckerPragerIsAConeThroughBothStrengths)
+{
+  const StressCriterion cone("Drucker-Prager", f_t, f_c), mises("Drucker-Prager", f_t, f_t);
+  for (const auto &stress : {principal(f_t, 0., 0.), principal(0., 0., -f_c)})
+    {
+      EXPECT_NEAR(cone.utilisation(stress), 1., 1e-14);
+      EXPECT_NEAR(cone.utilisation(turned(stress)), 1., 1e-12);
+    }
+  // Pure shear fails at k, an expansion on all sides at k/(3 a), a pressure never.
+  const double k = 2. * f_c * f_t / (std::sqrt(3.) * (f_c + f_t));
+  const double a = (f_c - f_t) / (std::sqrt(3.) * (f_c + f_t)), tip = k / (3. * a);
+  Stress       shear;
+  shear[0][1] = k;
+  EXPECT_NEAR(cone.utilisation(shear), 1., 1e-14);
+  EXPECT_NEAR(cone.utilisation(principal(tip, tip, tip)), 1., 1e-14);
+  EXPECT_LT(cone.utilisation(principal(-f_c, -f_c, -f_c)), 0.);
+  // Between the principal stresses it is a circle: any order of them, and between them, on one mean stress.
+  const double mean = -0.4 * f_c, radius = std::sqrt(2.) * (k - 3. * a * mean);
+  for (const double angle : {0., 0.3, 1., 2., 4.})
+    {
+      const double third = 2. * dealii::numbers::PI / 3., s = std::sqrt(2. / 3.) * radius;
+      EXPECT_NEAR(cone.utilisation(principal(mean + s * std::cos(angle),
+                                             mean + s * std::cos(angle - third),
+                                             mean + s * std::cos(angle + third))),
+                  1.,
+                  1e-12);
+    }
+  // Of equal strengths, that of von Mises: pressure does not count.
+  EXPECT_NEAR(mises.utilisation(principal(f_t - 9e6, -9e6, -9e6)), 1., 1e-14);
+}
+
 TEST(StressCriteria, OfAMaterialOfAScene)
 {
   MaterialParameters parameters;
