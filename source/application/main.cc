@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/command_line.h>
-#include <perideal/application/simulation.h>
-#include <perideal/application/versions.h>
+#include <perideal/application/gate.h>
 #include <perideal/base/exceptions.h>
+#include <perideal/base/versions.h>
+#include <perideal/drivers/driver.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
-#include <thread>
 
 namespace
 {
   using namespace perideal;
 
   template <int dim>
-  void run_or_check(const SceneParameters &scene, const RunContext &context, const bool only_check)
+  void run_or_check(const SceneParameters &parameters, const RunContext &context, const bool only_check)
   {
-    Simulation<dim> simulation(scene, context, MPI_COMM_WORLD);
+    Problem<dim> problem(parameters, context, MPI_COMM_WORLD);
+    const auto   driver = create_driver(problem);
     if (only_check)
-      simulation.check();
+      driver->check();
     else
-      simulation.run();
+      driver->run();
   }
 
   /// Reads the scene and runs it, with errors located in the file.
@@ -92,39 +92,7 @@ namespace
 int main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const bool is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  const bool is_alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-  try
-    {
-      act(CommandLine::parse(argc, argv), is_first);
-      return 0;
-    }
-  catch (const InputError &error)
-    {
-      // All ranks come here alike.
-      if (is_first)
-        std::cerr << "perideal: input error: " << error.what() << std::endl;
-      return 1;
-    }
-  catch (const ComputationError &error)
-    {
-      // Where all ranks fail alike, the first speaks and ends the others.
-      if (!is_first)
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-      std::cerr << "perideal: computation failed: " << error.what() << std::endl;
-    }
-  catch (const std::bad_alloc &)
-    {
-      std::cerr << "perideal: computation failed: out of memory\n"
-                   "  advice: perideal --check shows what a scene needs"
-                << std::endl;
-    }
-  catch (const std::exception &error)
-    {
-      std::cerr << "perideal: internal error: " << error.what() << std::endl;
-    }
-  // A single rank may fail; the others must not wait for it.
-  if (!is_alone)
-    MPI_Abort(MPI_COMM_WORLD, 2);
-  return 2;
+  return run_guarded([&]() {
+    act(CommandLine::parse(argc, argv), dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+  });
 }

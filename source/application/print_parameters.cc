@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/application/scene_parameters.h>
+#include <perideal/problem/scene_parameters.h>
 
 #include <boost/property_tree/json_parser.hpp>
 

@@ -226,7 +226,6 @@ namespace perideal
   template <int dim>
   void Families<dim>::release_members()
   {
-    std::vector<BondIndex>().swap(row);
     std::vector<LocalIndex>().swap(neighbour);
   }
 

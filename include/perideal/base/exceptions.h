@@ -71,6 +71,21 @@ namespace perideal
   private:
     std::string message;
   };
+
+  /// The program was asked to stop, and did so where it can go on from: exit status 2. Thrown by all ranks.
+  class Stopped : public std::exception
+  {
+  public:
+    explicit Stopped(std::string what_was_done)
+      : message(std::move(what_was_done))
+    {
+    }
+
+    const char *what() const noexcept override { return message.c_str(); }
+
+  private:
+    std::string message;
+  };
 } // namespace perideal
 
 #endif

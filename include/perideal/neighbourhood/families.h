@@ -52,7 +52,7 @@ namespace perideal
     /// Family sizes over all ranks.
     Statistics statistics() const { return sizes; }
 
-    /// Lets the lists of members go, which take the most memory: begin(), end() and size() are over.
+    /// Releases the lists of members, which take the most memory: begin() and end() are over, size() stays.
     void release_members();
 
     /// Global number of a local node.

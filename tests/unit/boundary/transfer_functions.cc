@@ -92,10 +92,10 @@ namespace
       return {sum(result.force), sum(result.moment)};
     }
 
-    Nodes<dim>                              nodes;
-    std::vector<BoundaryFace<dim>>          faces;
-    TransferFunctions<dim>                  functions;
-    Loads<dim>                              loads;
+    Nodes<dim>                     nodes;
+    std::vector<BoundaryFace<dim>> faces;
+    TransferFunctions<dim>         functions;
+    Loads<dim>                     loads;
   };
 
   /// (2.3), (2.4) and (2.5), relative to the sizes of the terms.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_drivers_driver_h
+#define perideal_drivers_driver_h
+
+#include <perideal/recorders/recorders.h>
+
+#include <memory>
+#include <string>
+
+namespace perideal
+{
+  /**
+   * Takes a problem through its steps, and hands each of them to the recorders. Every kind of solver is a
+   * driver: it prepares what it needs of the problem, runs, and can check a scene without solving it.
+   */
+  template <int dim>
+  class Driver
+  {
+  public:
+    /// The problem must outlive this object.
+    Driver(Problem<dim> &problem, const RunKind &kind);
+    virtual ~Driver() = default;
+
+    /// Runs the scene. Whatever it throws, what was computed by then is on disk. Collective.
+    /// @throws InputError, ComputationError, and Stopped where the program was asked to stop.
+    void run();
+
+    /// Reads, meshes, counts and warns; solves nothing. Collective.
+    /// @throws InputError as run() does before it solves.
+    void check();
+
+  protected:
+    /// Reads what the scene says of failure and motion; needs the nodes. Collective.
+    virtual void prepare_scene() = 0;
+
+    /// Builds everything up to the first step. Collective.
+    virtual void prepare() = 0;
+
+    /// Looks at the loads before the first step. Collective.
+    virtual void check_loads() { problem.check_loads(); }
+
+    /// Takes all steps; returns false when the program was asked to stop. Collective.
+    virtual bool advance() = 0;
+
+    /// Returns lines of the banner.
+    virtual std::string describe() const = 0;
+
+    /// Returns the step that a run stopped after, in words.
+    virtual std::string last_step() const { return {}; }
+
+    /// Returns what this driver does without.
+    virtual nlohmann::ordered_json skipped() const = 0;
+
+    /// Returns the memory of its operators on this rank [B].
+    virtual std::size_t memory_consumption() const;
+
+    /// Returns lines about the end of a run.
+    virtual std::string closing_lines() const { return {}; }
+
+    /// Returns viscous force over mass and velocity [1/s], which bounds stable steps.
+    virtual double damping() const { return problem.parameters.solver.damping; }
+
+    /// Returns the largest stable step of explicit dynamics [s]. Collective.
+    double largest_stable_step() const;
+
+    /// Writes a checkpoint to which a driver's own state has been added. Collective.
+    void write(Checkpoint &checkpoint) const;
+
+    /// Starts a checkpoint with what all runs in steps leave.
+    Checkpoint start_checkpoint(const std::uint64_t step, const double time) const;
+
+    /// Reads the last checkpoint, where the run is to go on from it, and holds its scene against this one.
+    /// Collective. @throws InputError when it belongs to another.
+    void open_checkpoint();
+
+    /// Brings the recorders to the state of the checkpoint, which is done with. Collective.
+    void resume_records();
+
+    /// Energies of the present step, the largest so far noted.
+    /// @return what is missing over that [-]
+    double energy_error(const EnergyBudget &energy, const double scale);
+
+    Problem<dim>                   &problem;
+    const RunKind                   kind;
+    std::unique_ptr<Recorders<dim>> recorders;
+    /// What this run goes on from, if it does.
+    std::unique_ptr<Checkpoint> resumed;
+    /// Of the run so far [J].
+    double largest_energy = 0;
+
+  private:
+    void announce();
+    void finish(const RunStatus status);
+    /// The same when an error is on its way, which no other may replace.
+    void finish_after_error() noexcept;
+    void print_materials() const;
+  };
+
+  /// Makes the driver that the scene asks for. Collective.
+  template <int dim>
+  std::unique_ptr<Driver<dim>> create_driver(Problem<dim> &problem);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_drivers_preconditioning_h
+#define perideal_drivers_preconditioning_h
+
+#include <perideal/problem/problem.h>
+#include <perideal/solvers/linear_solver.h>
+
+#include <memory>
+
+namespace perideal
+{
+  /// How the linear systems of a problem are preconditioned, and the finite elements that this takes.
+  template <int dim>
+  class Preconditioning
+  {
+  public:
+    /// Chooses for a number of solves, and assembles what that needs. Collective.
+    /// @param report part "solver" of summary.json, which is told the choice
+    Preconditioning(const Problem<dim> &problem, const unsigned int n_solves, nlohmann::ordered_json &report);
+
+    /// Makes a solver for a system of the problem. Collective.
+    std::unique_ptr<LinearSolver<dim>> create_solver(const SolverParameters         &parameters,
+                                                     const ConstrainedOperator<dim> &system) const;
+
+  private:
+    const Problem<dim>              &problem;
+    PreconditionerChoice             choice;
+    std::unique_ptr<ElasticFem<dim>> fem;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_advice_h
+#define perideal_problem_advice_h
+
+#include <perideal/problem/problem.h>
+
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Which form suits the scene, and why, in one line.
+  /// @param n_thin cells in parts of the body that are one cell thick, where
+  ///   the face gradient has no linear fit
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin);
+
+  /// Cells of all ranks that have no gradient across the part that they lie in. Needs
+  /// problem.discretisation.gradient. Collective.
+  template <int dim>
+  GlobalIndex thin_cells(const Problem<dim> &problem);
+
+  /// What is likely to spoil the result or to stop the solver, one line each. Collective.
+  template <int dim>
+  std::vector<std::string> warnings(const Problem<dim> &problem);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_discretisation_h
+#define perideal_problem_discretisation_h
+
+#include <perideal/materials/linear_model.h>
+#include <perideal/neighbourhood/connected_parts.h>
+#include <perideal/operators/linear/bond_operator.h>
+#include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/weights/correspondence_rows.h>
+#include <perideal/operators/weights/family_weights.h>
+#include <perideal/parameters/hyperelastic_law.h>
+#include <perideal/problem/body.h>
+#include <perideal/reconstruction/face_gradient.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace perideal
+{
+  template <int dim>
+  class BondForce;
+  template <int dim>
+  class FaceValues;
+  template <int dim>
+  class GaussPoints;
+  template <int dim>
+  struct SurfaceFace;
+
+  /**
+   * What the model and its quadrature make of the body: families, weights and the linear operator of the
+   * bonds. One of four kinds: weighed bonds between nodes, bonds between Gauss points, the consistent form
+   * with strains from faces, and the correspondence model.
+   */
+  template <int dim>
+  struct Discretisation
+  {
+    /// Finds the families of a cloud of nodes, those of the body first. Collective.
+    /// @throws InputError when a node has no neighbour.
+    void find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud);
+
+    /// Finds what of the body hangs together, unless that is known. Collective.
+    /// @param is_cut bonds that precracks cut; empty: none
+    void find_parts(const Body<dim> &body, const BondPredicate<dim> &is_cut);
+
+    /// Makes the face gradient of the body. Collective.
+    void make_gradient(const Body<dim> &body);
+
+    /// Weighs the families and makes the operator. Collective.
+    /// @param face_values prescribed at faces, of models that read them
+    /// @param surface faces of all ranks, where factors of bonds follow from their planes
+    void weigh(const Body<dim>                        &body,
+               const std::shared_ptr<FaceValues<dim>> &face_values,
+               const std::vector<SurfaceFace<dim>>    &surface,
+               const BondPredicate<dim>               &is_cut);
+
+    /// Measures the stiffness of whole families, where finite elements are to have it. Collective.
+    /// @throws InputError where no family is whole, or several materials have several stiffnesses.
+    void measure_families(const Body<dim> &body);
+
+    /// Returns the solids of finite elements on a mesh of the body that the solution is compared with: of the
+    /// material, or as stiff as whole families.
+    SolidsByMaterial<dim> compared_solids(const Body<dim> &body, const Mesh<dim> &mesh) const;
+
+    /// Makes the nonlinear force of the bonds, none of them broken.
+    std::unique_ptr<BondForce<dim>> create_force() const;
+
+    /// Makes the tangent of that force.
+    std::shared_ptr<TangentOperator<dim>> create_tangent() const;
+
+    std::shared_ptr<Families<dim>>     families;
+    std::optional<ConnectedParts<dim>> parts;
+    /// Where the scene needs gradients: the consistent form, strains and stresses do.
+    std::shared_ptr<const FaceGradient<dim>> gradient;
+
+    /// What the model made of the bonds; the consistent form has no such.
+    std::unique_ptr<LinearModel<dim>>  model;
+    std::shared_ptr<BondWeights<dim>>  weights;
+    std::shared_ptr<BondOperator<dim>> bonds;
+    /// What became of the families, of all ranks and by owned node.
+    FamilyCounts              counts;
+    std::vector<FamilyReport> reports;
+    /// Of the correspondence model, in the place of weights.
+    LawsByMaterial<dim>                      laws;
+    std::shared_ptr<CorrespondenceRows<dim>> correspondence;
+    /// C of whole families by their quadrature [Pa], where the scene needs it.
+    std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
+
+  private:
+    void weigh_nodes(const Body<dim>                     &body,
+                     const std::vector<SurfaceFace<dim>> &surface,
+                     const BondPredicate<dim>            &is_cut);
+    void weigh_gauss_points(const Body<dim> &body, const std::vector<SurfaceFace<dim>> &surface);
+    void weigh_faces(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
+    void weigh_correspondence(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
+  };
+
+  /// Returns the solids as the model of the scene takes them: bond-based ones have a Poisson's ratio of
+  /// their own.
+  template <int dim>
+  SolidOf<dim> solids_of_model(const Body<dim> &body);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_failure_h
+#define perideal_problem_failure_h
+
+#include <perideal/fracture/no_fail_zones.h>
+#include <perideal/neighbourhood/precrack.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/problem/discretisation.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// What of a body is cut, what may break, and when.
+  template <int dim>
+  struct Failure
+  {
+    /// Reads precracks and no-fail zones. Collective.
+    /// @throws InputError on text that is no precrack or zone.
+    void prepare(const Body<dim> &body);
+
+    /// Returns a test of bonds that precracks cut; empty where there are none. It refers to this object.
+    BondPredicate<dim> precrack_test() const;
+
+    /// Returns the critical stretch of a material at a horizon [-]; infinity: unbreakable.
+    static double
+    critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
+
+    /// Cuts what precracks cross and gives bonds their limits. Collective.
+    void apply(const Body<dim> &body, const Discretisation<dim> &discretisation, BondForce<dim> &force);
+
+    std::vector<Precrack<dim>>        precracks;
+    std::unique_ptr<NoFailZones<dim>> no_fail_zones;
+    /// Nodes of all ranks in these zones, and bonds that precracks cut.
+    GlobalIndex n_no_fail_nodes = 0, n_cut_bonds = 0;
+  };
+
+  /// Returns the share of the family behind broken bonds and precracks, by owned node.
+  template <int dim>
+  std::vector<double> total_damage(const BondForce<dim> &force);
+} // namespace perideal
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_finite_elements_h
+#define perideal_problem_finite_elements_h
+
+#include <perideal/problem/problem.h>
+
+namespace perideal
+{
+  /// Returns a solution by finite elements on the mesh itself, ElasticFem or HyperelasticFem, at the nodes,
+  /// rigid-body motions removed.
+  template <int dim, typename Fem>
+  NodalField<dim> on_mesh_at_nodes(const Problem<dim> &problem, const Fem &fem)
+  {
+    const Nodes<dim>               &nodes        = *problem.body.nodes;
+    const auto                     &node_of_cell = nodes.node_of_cell;
+    std::vector<dealii::Point<dim>> point_of_cell(node_of_cell.size());
+    for (std::size_t cell = 0; cell < point_of_cell.size(); ++cell)
+      if (node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+        point_of_cell[cell] = nodes.position[node_of_cell[cell]];
+    const auto      values = fem.evaluate_in_cells(point_of_cell);
+    NodalField<dim> result(nodes.size());
+    for (std::size_t cell = 0; cell < values.size(); ++cell)
+      if (node_of_cell[cell] != dealii::numbers::invalid_unsigned_int)
+        result[node_of_cell[cell]] = values[cell];
+    problem.free_motions.remove_mean(nodes, result);
+    return result;
+  }
+
+  /// Returns a solution by finite elements on cells of their own at the nodes, rigid-body motions removed.
+  /// Collective.
+  template <int dim>
+  NodalField<dim> at_nodes(const Problem<dim> &problem, const ElasticFem<dim> &fem);
+
+  /// Returns Q2 finite elements on the refined mesh, or on the reference's own mesh, at the nodes.
+  /// Collective.
+  template <int dim>
+  NodalField<dim> reference_at_nodes(Problem<dim> &problem);
+} // namespace perideal
+
+#endif

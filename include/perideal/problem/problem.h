@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_problem_h
+#define perideal_problem_problem_h
+
+#include <perideal/problem/failure.h>
+#include <perideal/problem/loading.h>
+#include <perideal/problem/run.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// A displacement at this rank's nodes [m].
+  template <int dim>
+  using NodalField = std::vector<dealii::Tensor<1, dim>>;
+
+  /// The state of the body, as the last step left it.
+  template <int dim>
+  struct State
+  {
+    /// Displacement of the unknowns [m], and the external force on them [N].
+    NodalVector unknowns, external_force;
+    /// Displacement of the nodes, rigid-body motions removed [m]; in dynamics their velocity [m/s].
+    NodalField<dim> displacement, velocity;
+    /// Solutions it is held against, by name: "fem", "reference", "exact".
+    std::map<std::string, NodalField<dim>> comparisons;
+  };
+
+  /**
+   * A built scene: the body, its discretisation, loading and failure, and the state that drivers move on.
+   * Drivers build the parts that they need, in the order of the methods; recorders read them.
+   */
+  template <int dim>
+  struct Problem
+  {
+    /// The parameters must outlive this object.
+    Problem(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator);
+
+    /// Makes mesh, nodes and families. Collective.
+    /// @throws InputError on a bad mesh, unknown boundaries, a node without neighbours.
+    void build();
+
+    /// Finds the motions that supports leave free. Collective.
+    /// @throws InputError where the scene does not remove them.
+    void find_motions();
+
+    /// Weighs the bonds and makes the linear system. Collective.
+    void weigh();
+
+    /// Solves for the converged reference where the scene asks for one. Collective.
+    void solve_reference();
+
+    /// Makes the nonlinear force of whole bonds.
+    void make_force();
+
+    /// Cuts precracks and sets the limits of the force's bonds. Collective.
+    void make_failure();
+
+    /// Makes the vectors of the state and looks at all loads once, at t = 1. Collective.
+    /// @throws InputError on loads that are not finite, or push along a motion that nothing holds.
+    void check_loads();
+
+    /// Sets supports, prescribed displacements and external forces to a time. Collective.
+    void apply_loads(const double time);
+
+    /// Takes over the displacement of the unknowns to that of the nodes.
+    void store_displacement();
+
+    const SceneParameters &parameters;
+    Run                    run;
+
+    Body<dim>                                 body;
+    Loading<dim>                              loading;
+    Discretisation<dim>                       discretisation;
+    Failure<dim>                              failure;
+    std::unique_ptr<ConstrainedOperator<dim>> system;
+    /// Of dynamics and nonlinear equilibria.
+    std::unique_ptr<BondForce<dim>> force;
+    NullSpace<dim>                  free_motions;
+    State<dim>                      state;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_run_h
+#define perideal_problem_run_h
+
+#include <perideal/base/timing.h>
+
+#include <deal.II/base/conditional_ostream.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace perideal
+{
+  /// What a run is told besides its parameters.
+  struct RunContext
+  {
+    /// The command as typed, for summary.json.
+    std::string command;
+    /// Directory of the `.prm` file, where relative mesh files may lie.
+    std::string scene_directory;
+    /// Every parameter as used, for summary.json.
+    nlohmann::ordered_json parameters;
+  };
+
+  /// The surroundings of a run: what was asked for, its ranks, its screen and its clock.
+  struct Run
+  {
+    Run(const RunContext &context, MPI_Comm communicator);
+
+    /// Prints a line that begins with "warning".
+    void warn(const std::string &text);
+
+    const RunContext context;
+    MPI_Comm         communicator;
+    /// Standard output of the first rank.
+    dealii::ConditionalOStream screen;
+    Timings                    timings;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_scene_parameters_h
+#define perideal_problem_scene_parameters_h
+
+#include <perideal/fracture/crack_tracker.h>
+#include <perideal/fracture/no_fail_zones.h>
+#include <perideal/materials/models.h>
+#include <perideal/mesh/mesh_parameters.h>
+#include <perideal/neighbourhood/precrack.h>
+#include <perideal/nodes/nodes.h>
+#include <perideal/operators/force/contact_force.h>
+#include <perideal/parameters/areal_force_parameters.h>
+#include <perideal/parameters/gauge_parameters.h>
+#include <perideal/parameters/load_parameters.h>
+#include <perideal/parameters/material_parameters.h>
+#include <perideal/parameters/parameter_file.h>
+#include <perideal/quadrature/bond_volume.h>
+#include <perideal/solvers/linear_solver.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace perideal
+{
+  /// Subsection of "Comparison": a straight line through the body.
+  struct LineText
+  {
+    /// Name of the subsection, "Comparison/<name>".
+    std::string name;
+    /// Its ends, coordinates [m] separated by commas.
+    std::string from, to;
+  };
+
+  /// Of what the finite elements are made that solutions are held against.
+  enum class ComparedStiffness
+  {
+    material,
+    families
+  };
+
+  template <>
+  struct ChoiceNames<ComparedStiffness>
+  {
+    static constexpr const char *list[] = {"material", "families"};
+  };
+
+  /// Section "Comparison": what the solution is held against.
+  struct ComparisonParameters
+  {
+    /// Finite elements on the same mesh.
+    bool fem = false;
+    /// Polynomial degree of these.
+    unsigned int fem_degree = 1;
+    /// Q2 finite elements on the refined mesh.
+    bool              reference = false;
+    ComparedStiffness stiffness = ComparedStiffness::material;
+    /// Refinements of the reference's mesh; -1: coarsened once.
+    int reference_refinements = 1;
+    /// Gmsh file of the same body on which the reference is solved; empty: the scene's mesh.
+    std::string reference_mesh;
+    /// Boundaries along which profiles are written.
+    std::vector<std::string> profiles;
+    /// Lines along which profiles are written.
+    std::vector<LineText> lines;
+    /// Exact displacement by component, formulas in x, y, z, t; empty: none.
+    std::array<std::string, 3> exact;
+
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    bool by_families() const { return stiffness == ComparedStiffness::families; }
+
+    bool has_exact() const { return !(exact[0].empty() && exact[1].empty() && exact[2].empty()); }
+  };
+
+  /// Section "Initial conditions".
+  struct InitialParameters
+  {
+    /// Velocity of the body at t = 0 by component [m/s], formulas in x, y, z; empty: at rest.
+    std::array<std::string, 3> velocity;
+
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Section "Checkpoints".
+  struct CheckpointParameters
+  {
+    /// Steps between two checkpoints; 0: only when the program is asked to stop.
+    unsigned int steps = 0;
+    /// Whether to go on from the last one.
+    bool restart = false;
+
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Everything a `.prm` file can say.
+  struct SceneParameters
+  {
+    int         dimension        = 2;
+    std::string output_directory = "output";
+    std::string fields           = "displacement";
+    /// Boundaries whose stresses are written.
+    std::vector<std::string> boundary_stress;
+    /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
+    double nominal_stress = 0.;
+    /// Field files of dynamics, and steps between rows of their history.
+    unsigned int         frames = 10, history_steps = 10;
+    MeshParameters       mesh;
+    NodeParameters       nodes;
+    QuadratureParameters quadrature;
+    ModelParameters      model;
+    MaterialParameters   material;
+    SolverParameters     solver;
+    LoadParameters       loads;
+    InitialParameters    initial;
+    PrecrackParameters   precracks;
+    NoFailParameters     no_fail;
+    CrackParameters      cracks;
+    CheckpointParameters checkpoints;
+    ContactParameters    contact;
+    ComparisonParameters comparison;
+    ArealForceParameters areal_forces;
+    GaugeParameters      gauges;
+
+    /// Declares all parameters, reads the values and checks their ranges.
+    /// The blocks are bound to @p prm: this object must stay where it is.
+    /// @throws InputError naming file, line and parameter.
+    void read(const ParameterFile &file, dealii::ParameterHandler &prm);
+
+    void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
+
+    /// Replaces "automatic" by what it means for this scene.
+    /// @throws InputError on choices that do not go together.
+    void resolve();
+
+    /// Puts what Treatment means in the place of "automatic".
+    /// @throws InputError for the consistent form.
+    void resolve_treatment();
+    /// @throws InputError on what does not go with nodes on the surface, or with transfer functions.
+    void check_surface_nodes() const;
+    void check_transfer() const;
+    /// @throws InputError on what does not go with Taylor ghosts.
+    void check_ghosts() const;
+
+    /// @throws InputError on a failure by stress of bonds that break by stretch, and on one by stretch of
+    /// those that break by stress.
+    void check_failure() const;
+
+    /// @throws InputError on what does not go with Gauss points, or with compensation factors.
+    void check_quadrature() const;
+    /// Chooses the treatment of tractions.
+    /// @throws InputError on those that do not go with the model or the solver.
+    void resolve_tractions();
+
+    /// @throws InputError on what does not go with the correspondence model.
+    void check_correspondence() const;
+
+    /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
+    void check_dynamics() const;
+    void check_nonlinear_statics() const;
+    void check_statics() const;
+    /// @throws InputError on prescribed or initial velocities.
+    void check_no_motion() const;
+
+    /// @throws InputError on lines where bonds know more than their ends, or are not whole.
+    void check_areal_forces() const;
+
+    /// Fields to write, in the order given.
+    std::vector<std::string> field_names() const;
+  };
+
+  /// Returns whether bonds of the scene may break.
+  bool can_break(const SceneParameters &parameters);
+
+  /// Returns whether nodes repel each other that come too close.
+  bool has_contact(const SceneParameters &parameters);
+
+  /// Prints every parameter with default, range and meaning.
+  /// @param format text | prm | markdown
+  /// @throws InputError on another format.
+  void print_parameters(std::ostream &out, const std::string &format);
+} // namespace perideal
+
+#endif

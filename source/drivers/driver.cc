@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/driver.h>
+#include <perideal/operators/system/stable_time_step.h>
+#include <perideal/output/files.h>
+#include <perideal/problem/advice.h>
+#include <perideal/problem/description.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  template <int dim>
+  Driver<dim>::Driver(Problem<dim> &problem, const RunKind &kind)
+    : problem(problem)
+    , kind(kind)
+  {
+  }
+
+  template <int dim>
+  void Driver<dim>::run()
+  {
+    create_output_directory(problem.parameters.output_directory, problem.run.communicator);
+    problem.build();
+    prepare_scene();
+    if (problem.parameters.checkpoints.restart)
+      open_checkpoint();
+    prepare();
+    recorders = std::make_unique<Recorders<dim>>(problem, kind);
+    announce();
+    check_loads();
+    bool reached_end = false;
+    try
+      {
+        // Dynamics have moved on to their step, load steps have recorded theirs.
+        recorders->open(
+          resumed ? resumed->header.at("step").template get<double>() + (kind.has_motion ? -0.5 : 0.5) : -1.);
+        reached_end = advance();
+      }
+    catch (const InputError &)
+      {
+        finish_after_error();
+        throw;
+      }
+    catch (const ComputationError &)
+      {
+        finish_after_error();
+        throw;
+      }
+    catch (...)
+      {
+        // Perhaps on this rank alone: nothing collective may follow.
+        recorders->abandon();
+        throw;
+      }
+    finish(reached_end ? RunStatus::done : RunStatus::stopped);
+    if (!reached_end)
+      throw Stopped("asked to stop after " + last_step() +
+                    "; the checkpoint is written\n  advice: to go on, run the same scene with --set "
+                    "Checkpoints/Restart=true");
+  }
+
+  template <int dim>
+  void Driver<dim>::announce()
+  {
+    auto skips = list_skipped(problem);
+    skips.update(skipped());
+    problem.run.screen << banner(problem, describe(), skips) << std::flush;
+    for (const std::string &warning : warnings(problem))
+      problem.run.warn(warning);
+  }
+
+  template <int dim>
+  void Driver<dim>::finish(const RunStatus status)
+  {
+    RunReport report;
+    report.status         = status;
+    report.skipped        = skipped();
+    report.operator_bytes = memory_consumption();
+    report.lines          = closing_lines();
+    recorders->finish(report);
+  }
+
+  template <int dim>
+  void Driver<dim>::finish_after_error() noexcept
+  {
+    try
+      {
+        finish(RunStatus::failed);
+      }
+    catch (const std::exception &)
+      {
+        recorders->abandon();
+      }
+  }
+
+  template <int dim>
+  std::size_t Driver<dim>::memory_consumption() const
+  {
+    const auto &discretisation = problem.discretisation;
+    return discretisation.families->memory_consumption() +
+           (problem.force ? problem.force->memory_consumption() : discretisation.bonds->memory_consumption());
+  }
+
+  template <int dim>
+  double Driver<dim>::largest_stable_step() const
+  {
+    return damped_time_step(
+      stable_time_step(*problem.system,
+                       [&](const dealii::types::material_id id) { return problem.body.density_of(id); }),
+      damping());
+  }
+
+  template <int dim>
+  double Driver<dim>::energy_error(const EnergyBudget &energy, const double scale)
+  {
+    largest_energy = std::max({largest_energy, std::abs(energy.external), scale});
+    return largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Driver)
+} // namespace perideal

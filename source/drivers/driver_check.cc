@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/driver.h>
+#include <perideal/output/summary.h>
+#include <perideal/problem/advice.h>
+#include <perideal/problem/description.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Driver: a scene is checked and not solved.
+
+namespace perideal
+{
+  template <int dim>
+  void Driver<dim>::check()
+  {
+    problem.build();
+    prepare_scene();
+    problem.weigh();
+    recorders   = std::make_unique<Recorders<dim>>(problem, kind);
+    auto &out   = problem.run.screen;
+    auto  skips = list_skipped(problem);
+    skips.update(skipped());
+    out << banner(problem, describe(), skips);
+
+    const std::size_t bytes = dealii::Utilities::MPI::sum(memory_consumption(), problem.run.communicator);
+    out << "memory      about " << short_number(bytes / 1e6) << " MB for families and bonds, "
+        << short_number(static_cast<double>(bytes) / problem.body.nodes->n_global) << " B a node"
+        << (kind.has_motion || problem.parameters.solver.is_relaxation() ?
+              "" :
+              "; the preconditioner takes about as much again")
+        << '\n';
+    out << "time step   " << short_number(largest_stable_step())
+        << " s is the largest stable one of explicit dynamics\n";
+    print_materials();
+    if (!kind.has_motion && !kind.has_iterations)
+      {
+        problem.discretisation.make_gradient(problem.body);
+        out << "suits       " << suitable_form(problem.parameters, thin_cells(problem)) << '\n';
+      }
+    for (const std::string &warning : warnings(problem))
+      problem.run.warn(warning);
+    if (!kind.has_motion)
+      problem.find_motions();
+    out << "nothing was solved" << std::endl;
+  }
+
+  template <int dim>
+  void Driver<dim>::print_materials() const
+  {
+    const Body<dim>  &body  = problem.body;
+    const Nodes<dim> &nodes = *body.nodes;
+    auto             &out   = problem.run.screen;
+    for (const auto id : body.mesh->material_ids)
+      {
+        double horizon = 0;
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          if (nodes.material[i] == id)
+            horizon = std::max(horizon, nodes.horizon[i]);
+        horizon                           = dealii::Utilities::MPI::max(horizon, problem.run.communicator);
+        const double              stretch = Failure<dim>::critical_stretch(body, id, horizon);
+        const MaterialProperties &data    = body.properties_of(id);
+        out << "material    " << body.mesh->material_name(id) << ": ";
+        if (std::isfinite(stretch))
+          out << "critical stretch " << short_number(stretch) << " at the largest horizon, "
+              << short_number(horizon) << " m\n";
+        else if (const double strength = data.tensile_strength; strength > 0)
+          // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at
+          // r = E G/(2 pi f^2).
+          out << name_of(problem.parameters.material.failure_criterion) << ", " << short_number(strength)
+              << " Pa; at half the largest horizon, " << short_number(0.5 * horizon)
+              << " m, before a crack it stands for a fracture energy of "
+              << short_number(dealii::numbers::PI * horizon * strength * strength /
+                              body.solids.at(id).isotropic().young_modulus)
+              << " J/m^2\n";
+        else
+          out << "no fracture energy given, unbreakable\n";
+      }
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Driver)
+} // namespace perideal

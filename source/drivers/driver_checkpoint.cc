@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/driver.h>
+#include <perideal/nodes/cell_keys.h>
+#include <perideal/output/summary.h>
+
+// Driver: what goes on in steps is stopped and goes on.
+
+namespace perideal
+{
+  namespace
+  {
+    using Json = nlohmann::ordered_json;
+
+    /// Parameters that may differ between a run and the one that goes on from it.
+    bool may_change(const std::string &path)
+    {
+      for (const char *start : {"/Output directory", "/Output/", "/Checkpoints/", "/Solver/End time"})
+        if (path.compare(0, std::string(start).size(), start) == 0)
+          return true;
+      return false;
+    }
+
+    /// @throws InputError naming the first parameter that two scenes do not agree on.
+    void compare_scenes(const Json &earlier, const Json &now)
+    {
+      const Json a = earlier.flatten(), b = now.flatten();
+      for (const auto &[one, other] : {std::pair<const Json &, const Json &>(a, b), {b, a}})
+        for (const auto &item : one.items())
+          if (!may_change(item.key()) && (!other.contains(item.key()) || other[item.key()] != item.value()))
+            {
+              const auto text = [&](const Json &scene) {
+                return scene.contains(item.key()) ? scene[item.key()].get<std::string>() :
+                                                    std::string("nothing");
+              };
+              throw InputError("the checkpoint belongs to another scene")
+                .parameter(item.key().substr(1))
+                .given(text(b))
+                .allowed(text(a) + ", as in the run that wrote the checkpoint")
+                .hint("only Output directory, Output, Solver/End time and Checkpoints may change");
+            }
+    }
+
+    /// Owned nodes and ghosts. Collective.
+    template <int dim>
+    CheckpointNodes checkpoint_nodes(const Problem<dim> &problem)
+    {
+      const Families<dim> &families = *problem.discretisation.families;
+      CheckpointNodes      result{cell_keys(*problem.body.mesh, *problem.body.nodes),
+                             {},
+                             families.n_owned(),
+                             problem.loading.unknowns().n_global,
+                             families.communicator};
+      if (problem.loading.surface_nodes)
+        {
+          // Cells have at most six; no cell uses the highest bits.
+          std::vector<std::uint64_t> n_of_cell(problem.body.nodes->size(), 0);
+          for (const LocalIndex cell : problem.loading.surface_nodes->cell_nodes())
+            result.key.push_back(result.key[cell] | (++n_of_cell[cell] << 61));
+        }
+      // Halves of keys are exact as doubles.
+      NodalVector halves(families.make_partitioner(2));
+      for (LocalIndex i = 0; i < families.n_owned(); ++i)
+        {
+          halves.local_element(2 * i)     = static_cast<double>(result.key[i] >> 32);
+          halves.local_element(2 * i + 1) = static_cast<double>(result.key[i] & 0xffffffffu);
+        }
+      halves.update_ghost_values();
+      for (LocalIndex i = 0; i < families.n_local(); ++i)
+        {
+          result.number.push_back(families.global_number(i));
+          if (i >= families.n_owned())
+            result.key.push_back((static_cast<std::uint64_t>(halves.local_element(2 * i)) << 32) |
+                                 static_cast<std::uint64_t>(halves.local_element(2 * i + 1)));
+        }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  Checkpoint Driver<dim>::start_checkpoint(const std::uint64_t step, const double time) const
+  {
+    Checkpoint result;
+    result.header = {{"step", step},
+                     {"time", time},
+                     {"largest energy", largest_energy},
+                     {"parameters", problem.run.context.parameters}};
+    recorders->save(result);
+    result.broken = problem.force->broken_bonds();
+    return result;
+  }
+
+  template <int dim>
+  void Driver<dim>::write(Checkpoint &checkpoint) const
+  {
+    write_checkpoint(problem.parameters.output_directory, checkpoint, checkpoint_nodes(problem));
+  }
+
+  template <int dim>
+  void Driver<dim>::open_checkpoint()
+  {
+    const SceneParameters &parameters = problem.parameters;
+    resumed =
+      std::make_unique<Checkpoint>(read_checkpoint(parameters.output_directory, checkpoint_nodes(problem)));
+    compare_scenes(resumed->header.at("parameters"), problem.run.context.parameters);
+    const double time = resumed->header.at("time").template get<double>();
+    if (kind.has_motion && !(time < parameters.solver.end_time))
+      throw InputError("the checkpoint is at the end already")
+        .parameter("Solver/End time")
+        .allowed("more than " + short_number(time) + " s");
+    problem.run.screen << "restart     from " << (kind.has_motion ? "step " : "load step ")
+                       << resumed->header.at("step").template get<std::uint64_t>()
+                       << ", t = " << short_number(time) << (kind.has_motion ? " s" : "") << std::endl;
+  }
+
+  template <int dim>
+  void Driver<dim>::resume_records()
+  {
+    largest_energy = resumed->header.at("largest energy").template get<double>();
+    recorders->resume(*resumed);
+    resumed.reset();
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Driver)
+} // namespace perideal

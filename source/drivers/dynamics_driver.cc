@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/base/stop_request.h>
+#include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/motion_check.h>
+#include <perideal/operators/force/contact_force.h>
+#include <perideal/operators/force/relative_damping.h>
+#include <perideal/output/progress.h>
+#include <perideal/output/summary.h>
+#include <perideal/solvers/explicit_dynamics.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    RunKind motion()
+    {
+      RunKind kind;
+      kind.has_motion = true;
+      return kind;
+    }
+
+    /// Explicit dynamics: a fixed step, forces without a matrix.
+    template <int dim>
+    class DynamicsDriver : public Driver<dim>
+    {
+    public:
+      explicit DynamicsDriver(Problem<dim> &problem)
+        : Driver<dim>(problem, motion())
+        , solver(problem.parameters.solver)
+        , motion_check(problem)
+      {
+      }
+
+    private:
+      using Driver<dim>::problem;
+      using Driver<dim>::recorders;
+      using Driver<dim>::resumed;
+
+      void prepare_scene() override
+      {
+        const auto &velocity = problem.parameters.initial.velocity;
+        const char *axes[]   = {"x", "y", "z"};
+        for (int d = 0; d < dim; ++d)
+          initial_velocity[d] =
+            SpaceTimeFunction<dim>(velocity[d], std::string("Initial conditions/v_") + axes[d]);
+        if (dim == 2 && !velocity[2].empty())
+          throw InputError("a two-dimensional scene has no z component").parameter("Initial conditions/v_z");
+        problem.failure.prepare(problem.body);
+      }
+
+      void prepare() override
+      {
+        problem.weigh();
+        make_relative_damping();
+        choose_time_step();
+        problem.make_force();
+        problem.make_failure();
+        const Timings::Scope scope(problem.run.timings, "setup");
+        make_contact();
+        release_what_only_the_step_needed();
+        const Nodes<dim> &nodes = *problem.body.nodes;
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          mass.push_back(problem.body.density_of(nodes.material[i]) * nodes.volume[i]);
+      }
+
+      void make_relative_damping()
+      {
+        if (solver.relative_damping > 0)
+          relative_damping = std::make_unique<RelativeDamping<dim>>(
+            problem.discretisation.weights,
+            solver.relative_damping,
+            [&](const dealii::types::material_id id) { return problem.body.density_of(id); });
+      }
+
+      void make_contact()
+      {
+        if (!has_contact(problem.parameters))
+          return;
+        std::vector<bool> on_surface(problem.body.nodes->size(), false);
+        for (const BoundaryFace<dim> &face : problem.body.faces)
+          on_surface[face.node] = true;
+        contact = std::make_unique<ContactForce<dim>>(
+          problem.discretisation.families,
+          problem.parameters.contact,
+          problem.parameters.nodes.horizon_factor,
+          [&](const dealii::types::material_id id) {
+            return problem.body.solids.at(id).isotropic().bulk_modulus();
+          },
+          on_surface);
+      }
+
+      void release_what_only_the_step_needed()
+      {
+        Discretisation<dim> &discretisation = problem.discretisation;
+        problem.system.reset();
+        discretisation.bonds.reset();
+        if (!problem.parameters.model.recomputes())
+          {
+            discretisation.weights.reset();
+            discretisation.families->release_members();
+            return;
+          }
+        problem.force->reweigh_as_bonds_break(
+          discretisation.weights, [this](const auto &nodes, const auto &is_gone) {
+            problem.discretisation.weights->reweigh(
+              nodes, *problem.discretisation.model, solids_of_model(problem.body), is_gone);
+          });
+      }
+
+      double damping() const override
+      {
+        return solver.damping + (relative_damping ? relative_damping->largest_rate() : 0.);
+      }
+
+      void choose_time_step()
+      {
+        const Timings::Scope scope(problem.run.timings, "setup");
+        stable_step         = this->largest_stable_step();
+        const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
+        // A whole number of steps.
+        const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
+        time_step =
+          resumed ? resumed->header.at("time step").template get<double>() : solver.end_time / n_wanted;
+        n_steps = std::ceil(solver.end_time / time_step - 1e-6);
+        if (time_step > stable_step)
+          problem.run.warn("the time step " + short_number(time_step) +
+                           " s is larger than the largest stable one, " + short_number(stable_step) + " s");
+      }
+
+      std::string describe() const override
+      {
+        std::string text;
+        if (has_contact(problem.parameters))
+          text += "contact     of nodes without a bond, nearer than " +
+                  short_number(problem.parameters.contact.distance) + " spacings\n";
+        if (time_step > 0)
+          text += "time        " + short_number(solver.end_time) + " s in " + std::to_string(n_steps) +
+                  " steps of " + short_number(time_step) + " s, " + integrator() + '\n';
+        return text;
+      }
+
+      nlohmann::ordered_json skipped() const override
+      {
+        nlohmann::ordered_json result = {{"matrix, preconditioner (explicit)", 1}};
+        if (!has_contact(problem.parameters))
+          result[can_break(problem.parameters) ? "contact (off)" : "contact (nothing can break)"] = 1;
+        if (contact && contact->n_searches() > 0)
+          result["nodes left out of the search for contacts"] = contact->n_left_out();
+        if (problem.force)
+          result["bonds at rest"] = 1. - problem.force->share_computed();
+        return result;
+      }
+
+      std::size_t memory_consumption() const override
+      {
+        return Driver<dim>::memory_consumption() + (contact ? contact->memory_consumption() : 0);
+      }
+
+      std::string closing_lines() const override
+      {
+        const auto &summary = recorders->summary();
+        if (summary.contains("contact") &&
+            summary.at("contact").at("largest_overlap").template get<double>() > 0.5)
+          return "warning     nodes came to less than half their contact distance and may have passed each "
+                 "other: raise Contact/Stiffness\n";
+        return {};
+      }
+
+      std::string last_step() const override
+      {
+        return "step " + std::to_string(dynamics->step()) + ", t = " + short_number(dynamics->time()) + " s";
+      }
+
+      std::string integrator() const { return name_of(solver.integrator); }
+
+      void make_dynamics()
+      {
+        using Start = typename ExplicitDynamics<dim>::Start;
+        dynamics    = std::make_unique<ExplicitDynamics<dim>>(*problem.force,
+                                                           problem.loading.held,
+                                                           problem.loading.loads,
+                                                           mass,
+                                                           solver.damping,
+                                                           time_step,
+                                                           solver.integrator == Integrator::velocity_verlet ?
+                                                                Start::velocity_verlet :
+                                                                Start::symplectic_euler);
+        if (contact)
+          dynamics->set_contact(contact.get());
+        if (relative_damping)
+          dynamics->set_relative_damping(relative_damping.get());
+        const Nodes<dim> &nodes = *problem.body.nodes;
+        for (int d = 0; d < dim; ++d)
+          if (initial_velocity[d].is_present())
+            for (LocalIndex i = 0; i < nodes.size(); ++i)
+              dynamics->velocity.local_element(dim * i + d) =
+                initial_velocity[d].value(nodes.position[i], 0.);
+      }
+
+      void check_loads() override
+      {
+        problem.force->initialize(problem.state.external_force);
+        problem.loading.check_finite(solver.end_time);
+      }
+
+      bool advance() override
+      {
+        recorders->summary()["solver"] = {{"name", "explicit dynamics, " + integrator()},
+                                          {"time_step", time_step},
+                                          {"stable_time_step", stable_step}};
+        make_dynamics();
+        if (resumed)
+          resume();
+        apply_forces();
+        const bool        loads_change = problem.loading.loads.forces_depend_on_time();
+        const auto        interval     = problem.parameters.checkpoints.steps;
+        auto             &screen       = problem.run.screen;
+        const StopRequest stop;
+        StepLine          progress(screen.get_stream(), screen.is_active(), n_steps);
+        for (std::uint64_t n = dynamics->step(); n <= n_steps; ++n)
+          {
+            {
+              const Timings::Scope scope(problem.run.timings, "solve");
+              if (loads_change && n > 0)
+                apply_forces();
+              dynamics->evaluate(problem.state.external_force);
+            }
+            observe(n);
+            progress(n, dynamics->n_broken());
+            if (n == n_steps)
+              break;
+            {
+              const Timings::Scope scope(problem.run.timings, "solve");
+              dynamics->advance();
+            }
+            const bool stops = stop.is_there(problem.run.communicator);
+            if (stops || (interval > 0 && (n + 1) % interval == 0))
+              save();
+            if (stops)
+              return false;
+          }
+        return true;
+      }
+
+      void apply_forces()
+      {
+        problem.loading.external_force(
+          problem.discretisation, dynamics->time(), problem.state.external_force);
+      }
+
+      /// Hands the present step to the recorders: rows and frames at their times.
+      void observe(const std::uint64_t n)
+      {
+        const bool all_broke =
+          dynamics->n_broken_now() > 0 && dynamics->n_broken() == problem.discretisation.families->n_bonds();
+        const std::size_t frames = problem.parameters.frames;
+        Step<dim>         step;
+        step.number       = n;
+        step.time         = dynamics->time();
+        step.n_broken     = dynamics->n_broken();
+        step.newly_broken = dynamics->n_broken_now();
+        step.is_last      = n == n_steps;
+
+        recorders->observe(step);
+        recorders->summary()["solver"]["steps"] = n;
+        const bool row = n % problem.parameters.history_steps == 0 || step.is_last || all_broke;
+        const auto at = [&](const std::size_t frame) { return std::round(double(frame) * n_steps / frames); };
+        const bool frame = recorders->n_frames() < frames && n >= at(recorders->n_frames() + 1);
+        if (row || frame)
+          measure(step);
+        if (row)
+          {
+            const Timings::Scope scope(problem.run.timings, "energy");
+            step.energy_error = this->energy_error(step.energy, step.energy.kinetic);
+            recorders->record(step);
+            record_contact();
+          }
+        if (all_broke)
+          throw ComputationError(
+            "every bond is broken at step " + std::to_string(n) + ", t = " + short_number(step.time) +
+            " s\n  likely cause: a critical stretch or fracture energy that is too small, or "
+            "loads that are too large");
+        while (recorders->n_frames() < frames && n >= at(recorders->n_frames() + 1))
+          recorders->write_fields(step);
+        if (step.is_last)
+          recorders->conclude(step);
+      }
+
+      /// Energies, supports and momentum; @throws ComputationError where the motion is none.
+      void measure(Step<dim> &step)
+      {
+        const Timings::Scope scope(problem.run.timings, "energy");
+        step.energy = dynamics->energy();
+        motion_check.look(*dynamics, step.energy, this->largest_energy, stable_step);
+        store();
+        step.reactions =
+          problem.loading.held.sum_by_condition(dynamics->reaction(), problem.run.communicator);
+        step.momentum = dynamics->momentum();
+      }
+
+      void store()
+      {
+        State<dim>      &state = problem.state;
+        const LocalIndex size  = problem.body.nodes->size();
+        state.unknowns         = dynamics->displacement;
+        state.displacement.resize(size);
+        state.velocity.resize(size);
+        for (LocalIndex i = 0; i < size; ++i)
+          for (int d = 0; d < dim; ++d)
+            {
+              state.displacement[i][d] = dynamics->displacement.local_element(dim * i + d);
+              state.velocity[i][d]     = dynamics->velocity.local_element(dim * i + d);
+            }
+      }
+
+      void record_contact()
+      {
+        if (!contact)
+          return;
+        auto        &summary = recorders->summary();
+        const double before =
+          summary.contains("contact") ? summary["contact"].value("largest_overlap", 0.) : 0.;
+        summary["contact"] = {{"pairs", contact->n_contacts()},
+                              {"largest_overlap", std::max(before, contact->largest_overlap())},
+                              {"searches", contact->n_searches()}};
+      }
+
+      void save()
+      {
+        const Timings::Scope scope(problem.run.timings, "output");
+        Checkpoint           checkpoint = this->start_checkpoint(dynamics->step(), dynamics->time());
+        checkpoint.header.update(
+          {{"time step", time_step},
+           {"broken bonds", dynamics->n_broken()},
+           {"dissipated energy", dynamics->dissipated_energy()},
+           {"contact", recorders->summary().value("contact", nlohmann::ordered_json::object())}});
+        checkpoint.put("displacement", dynamics->displacement);
+        checkpoint.put("velocity", dynamics->velocity);
+        checkpoint.shares = dynamics->energy_shares();
+        this->write(checkpoint);
+        // The run that goes on makes its lists anew; this one does so too, for the same order of sums.
+        if (contact)
+          contact->forget_lists();
+      }
+
+      void resume()
+      {
+        const auto &header = resumed->header;
+        resumed->take("displacement", dynamics->displacement);
+        resumed->take("velocity", dynamics->velocity);
+        dynamics->resume(header.at("step").template get<std::uint64_t>(),
+                         header.at("broken bonds").template get<GlobalIndex>(),
+                         header.at("dissipated energy").template get<double>(),
+                         resumed->shares);
+        problem.force->restore_broken(resumed->broken);
+        if (contact)
+          recorders->summary()["contact"] = header.at("contact");
+        this->resume_records();
+      }
+
+      const SolverParameters                 &solver;
+      std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
+      std::unique_ptr<ContactForce<dim>>      contact;
+      std::unique_ptr<RelativeDamping<dim>>   relative_damping;
+      std::vector<double>                     mass;
+      /// [s]
+      double                                 time_step = 0, stable_step = 0;
+      std::uint64_t                          n_steps = 0;
+      std::unique_ptr<ExplicitDynamics<dim>> dynamics;
+      MotionCheck<dim>                       motion_check;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Driver<dim>> create_dynamics_driver(Problem<dim> &problem)
+  {
+    return std::make_unique<DynamicsDriver<dim>>(problem);
+  }
+
+  PERIDEAL_INSTANTIATE(create_dynamics_driver)
+} // namespace perideal

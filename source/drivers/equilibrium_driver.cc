@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/base/stop_request.h>
+#include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/preconditioning.h>
+#include <perideal/fracture/floating_nodes.h>
+#include <perideal/output/progress.h>
+#include <perideal/output/summary.h>
+#include <perideal/solvers/dynamic_relaxation.h>
+#include <perideal/solvers/newton.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    RunKind kind_of(const SolverParameters &solver)
+    {
+      RunKind kind;
+      kind.has_iterations        = true;
+      kind.has_linear_iterations = solver.is_quasi_static();
+      return kind;
+    }
+
+    /// What a load step that failed tells the user.
+    std::string describe_failure(const SolverParameters &solver,
+                                 const unsigned int      number,
+                                 const double            time,
+                                 const EquilibriumStep  &result,
+                                 const GlobalIndex       n_broken)
+    {
+      const std::string broke_apart =
+        "a body that broke apart under forces has no equilibrium: prescribe displacements instead, or take "
+        "Solver/Name = ";
+      return (solver.is_quasi_static() ? "Newton's method stopped in load step " :
+                                         "dynamic relaxation stopped in load step ") +
+             std::to_string(number) + ", t = " + short_number(time) + ", after " +
+             std::to_string(result.iterations) + " iterations at a relative residual of " +
+             short_number(result.residuals.back()) + ", not at " + short_number(solver.tolerance) +
+             (result.problem.empty() ? "" : ", since " + result.problem) + ", with " +
+             std::to_string(n_broken) + " broken bonds\n  advice: " +
+             (solver.is_quasi_static() ?
+                "raise Solver/Load steps, with loads that grow with t, or Solver/Newton iterations; see "
+                "the residuals in history.h5; a body that buckles or softens may want Solver/Name = dynamic "
+                "relaxation; " +
+                  broke_apart + "dynamics" :
+                "raise Solver/Maximum iterations; " + broke_apart + "dynamics");
+    }
+
+    /// Equilibria of the nonlinear force along load steps, with failure, by Newton's method or dynamic
+    /// relaxation.
+    template <int dim>
+    class EquilibriumDriver : public Driver<dim>
+    {
+    public:
+      explicit EquilibriumDriver(Problem<dim> &problem)
+        : Driver<dim>(problem, kind_of(problem.parameters.solver))
+        , solver(problem.parameters.solver)
+      {
+      }
+
+    private:
+      using Driver<dim>::problem;
+      using Driver<dim>::recorders;
+      using Driver<dim>::resumed;
+
+      void prepare_scene() override { problem.failure.prepare(problem.body); }
+
+      void prepare() override
+      {
+        problem.find_motions();
+        problem.weigh();
+        problem.solve_reference();
+        problem.make_force();
+        solver_report["name"] = "dynamic relaxation";
+        if (solver.is_quasi_static())
+          set_up_tangent();
+        problem.make_failure();
+      }
+
+      void set_up_tangent()
+      {
+        const Timings::Scope scope(problem.run.timings, "setup");
+        const Timings::Scope part(problem.run.timings, "setup: preconditioner");
+        tangent        = problem.discretisation.create_tangent();
+        tangent_system = std::make_unique<ConstrainedOperator<dim>>(
+          tangent, problem.loading.images, problem.loading.unknowns(), problem.loading.held.mask());
+        // A load step takes about four solves.
+        preconditioning =
+          std::make_unique<Preconditioning<dim>>(problem, 4 * solver.load_steps, solver_report);
+        tangent_solver = std::make_unique<TangentSolver<dim>>(solver, [this](const SolverParameters &given) {
+          return preconditioning->create_solver(given, *tangent_system);
+        });
+        solver_report["name"] = "quasi static, " + tangent_solver->name();
+      }
+
+      std::string describe() const override
+      {
+        const std::string steps = " in " + std::to_string(solver.load_steps) + " load step(s)";
+        if (!solver.is_quasi_static())
+          return "solver      dynamic relaxation" + steps + '\n';
+        return "solver      quasi static, Newton's method" + steps +
+               (tangent_solver ? ", tangents by " + tangent_solver->name() : "") + '\n';
+      }
+
+      nlohmann::ordered_json skipped() const override
+      {
+        nlohmann::ordered_json result = {
+          {"mass and velocity (statics)", 2 * dim * problem.body.nodes->n_global}};
+        if (!solver.is_quasi_static())
+          result["matrix, preconditioner (relaxation)"] = 1;
+        return result;
+      }
+
+      std::size_t memory_consumption() const override
+      {
+        return Driver<dim>::memory_consumption() + (tangent ? tangent->memory_consumption() : 0);
+      }
+
+      std::string last_step() const override { return "load step " + std::to_string(done); }
+
+      void make_path()
+      {
+        typename EquilibriumPath<dim>::Controls controls;
+        controls.tolerance      = solver.tolerance;
+        controls.bonds_break    = can_break(problem.parameters);
+        controls.max_iterations = solver.is_quasi_static() ? solver.newton_iterations : solver.max_iterations;
+        Loading<dim> &loading   = problem.loading;
+        if (!solver.is_quasi_static())
+          {
+            path = std::make_unique<DynamicRelaxation<dim>>(
+              *problem.force, *problem.system, loading.held, loading.loads, controls);
+            return;
+          }
+        typename NewtonSolver<dim>::FindFloating find_floating;
+        if (controls.bonds_break || !problem.failure.precracks.empty())
+          find_floating = [this]() { return floating_nodes(); };
+        path =
+          std::make_unique<NewtonSolver<dim>>(*problem.force,
+                                              *tangent,
+                                              *tangent_system,
+                                              *tangent_solver,
+                                              loading.held,
+                                              loading.loads,
+                                              problem.free_motions,
+                                              controls,
+                                              loading.holds_nodes() ? nullptr : loading.face_values.get(),
+                                              find_floating);
+      }
+
+      std::vector<bool> floating_nodes() const
+      {
+        const BondForce<dim> &force = *problem.force;
+        std::vector<bool>     is_lost(force.bond_list().n_slots(), false);
+        for (const auto &bond : force.lost_bonds())
+          is_lost[bond.slot] = true;
+        return find_floating_nodes(
+          *problem.discretisation.families,
+          force.bond_list(),
+          [&](const BondIndex slot) { return is_lost[slot]; },
+          problem.loading.held.mask());
+      }
+
+      bool advance() override
+      {
+        recorders->summary()["solver"] = solver_report;
+        make_path();
+        if (resumed)
+          resume();
+        const unsigned int interval = problem.parameters.checkpoints.steps;
+        const StopRequest  stop;
+        while (done < solver.load_steps)
+          {
+            take_load_step(done + 1);
+            ++done;
+            const bool stops = stop.is_there(problem.run.communicator);
+            if (done < solver.load_steps && (stops || (interval > 0 && done % interval == 0)))
+              save();
+            if (stops)
+              break;
+          }
+        return done == solver.load_steps;
+      }
+
+      void take_load_step(const unsigned int number)
+      {
+        Step<dim> step;
+        step.number                             = number;
+        step.time                               = static_cast<double>(number) / solver.load_steps;
+        step.is_last                            = number == solver.load_steps;
+        recorders->summary()["solver"]["steps"] = number;
+        const double reached                    = search(step);
+        problem.state.unknowns                  = path->displacement;
+        problem.store_displacement();
+        measure(step);
+        recorders->observe(step);
+        recorders->record(step);
+        if (!step.search.converged)
+          throw ComputationError(describe_failure(solver, number, reached, step.search, path->n_broken()));
+        if (step.is_last)
+          recorders->conclude(step);
+        recorders->write_fields(step);
+      }
+
+      /// Goes to the end of a load step, whole at first; after a failure in halves, each of which may be
+      /// halved again. Returns the time reached or sought last.
+      double search(Step<dim> &step)
+      {
+        const double end  = step.time;
+        double       time = static_cast<double>(step.number - 1) / solver.load_steps, part = end - time;
+        while (time < end)
+          {
+            const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;
+            EquilibriumStep now  = find_equilibrium(step.number, next);
+            now.add_before(step.search);
+            step.search = now;
+            if (now.converged)
+              time = next;
+            else if (step.halvings == solver.step_halvings || !solver.is_quasi_static())
+              break;
+            else
+              {
+                ++step.halvings;
+                part *= 0.5;
+                path->restore();
+                problem.run.screen << "load step " << step.number << " from t = " << short_number(time)
+                                   << " is halved" << std::endl;
+              }
+          }
+        return std::min(end, time + part);
+      }
+
+      EquilibriumStep find_equilibrium(const std::uint64_t number, const double time)
+      {
+        const Timings::Scope scope(problem.run.timings, "solve");
+        auto                &screen = problem.run.screen;
+        const std::string    what   = "load step " + std::to_string(number) + " of " +
+                                 std::to_string(solver.load_steps) + ", " + std::to_string(path->n_broken()) +
+                                 " broken bonds";
+        apply_loads(time);
+        ProgressLine progress(screen.get_stream(), screen.is_active(), what, solver.tolerance);
+        return path->step(
+          problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
+            if (solver.is_quasi_static())
+              screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+            else
+              progress(iteration, r);
+          });
+      }
+
+      void apply_loads(const double time)
+      {
+        problem.apply_loads(time);
+        problem.free_motions.project(problem.state.external_force);
+      }
+
+      /// Energies and supports of the equilibrium.
+      void measure(Step<dim> &step)
+      {
+        const Loading<dim> &loading = problem.loading;
+        step.energy                 = path->energy();
+        step.energy_error           = this->energy_error(step.energy, step.energy.strain);
+        step.n_broken               = path->n_broken();
+        step.newly_broken           = step.search.broken;
+        step.n_floating             = path->n_floating();
+        step.reactions = loading.held.sum_by_condition(path->reaction(), problem.run.communicator);
+        if (!loading.face_values || loading.holds_nodes())
+          return;
+        const auto at_faces =
+          loading.face_values->sum_by_condition(path->face_reaction(), problem.run.communicator);
+        for (std::size_t k = 0; k < step.reactions.size(); ++k)
+          step.reactions[k] += at_faces[k];
+      }
+
+      void save() const
+      {
+        const Timings::Scope scope(problem.run.timings, "output");
+        Checkpoint checkpoint = this->start_checkpoint(done, static_cast<double>(done) / solver.load_steps);
+        path->save(checkpoint);
+        this->write(checkpoint);
+      }
+
+      void resume()
+      {
+        done              = resumed->header.at("step").template get<unsigned int>();
+        const double time = resumed->header.at("time").template get<double>();
+        problem.force->restore_broken(resumed->broken);
+        apply_loads(time);
+        path->resume(*resumed, problem.state.external_force, time);
+        this->resume_records();
+      }
+
+      const SolverParameters                   &solver;
+      std::shared_ptr<TangentOperator<dim>>     tangent;
+      std::unique_ptr<ConstrainedOperator<dim>> tangent_system;
+      std::unique_ptr<Preconditioning<dim>>     preconditioning;
+      std::unique_ptr<TangentSolver<dim>>       tangent_solver;
+      std::unique_ptr<EquilibriumPath<dim>>     path;
+      nlohmann::ordered_json                    solver_report;
+      /// Load steps.
+      unsigned int done = 0;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Driver<dim>> create_equilibrium_driver(Problem<dim> &problem)
+  {
+    return std::make_unique<EquilibriumDriver<dim>>(problem);
+  }
+
+  PERIDEAL_INSTANTIATE(create_equilibrium_driver)
+} // namespace perideal

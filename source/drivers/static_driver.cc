@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/preconditioning.h>
+#include <perideal/output/progress.h>
+#include <perideal/output/summary.h>
+
+#include <iostream>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Linear statics: one operator and one preconditioner for all load steps.
+    template <int dim>
+    class StaticDriver : public Driver<dim>
+    {
+    public:
+      explicit StaticDriver(Problem<dim> &problem)
+        : Driver<dim>(problem, RunKind())
+      {
+      }
+
+    private:
+      using Driver<dim>::problem;
+      using Driver<dim>::recorders;
+
+      void prepare_scene() override {}
+
+      void prepare() override
+      {
+        problem.find_motions();
+        problem.weigh();
+        problem.solve_reference();
+        const Timings::Scope scope(problem.run.timings, "setup");
+        const Timings::Scope part(problem.run.timings, "setup: preconditioner");
+        preconditioning = std::make_unique<Preconditioning<dim>>(
+          problem, problem.parameters.solver.load_steps, solver_report);
+        solver                = preconditioning->create_solver(problem.parameters.solver, *problem.system);
+        solver_report["name"] = solver->name();
+      }
+
+      std::string describe() const override
+      {
+        return solver ?
+                 "solver      " + name_of(problem.parameters.solver.name) + ", " + solver->name() + '\n' :
+                 "";
+      }
+
+      nlohmann::ordered_json skipped() const override
+      {
+        return {{"mass and velocity (statics)", 2 * dim * problem.body.nodes->n_global},
+                {"set-ups of further load steps (linear)", problem.parameters.solver.load_steps - 1}};
+      }
+
+      bool advance() override
+      {
+        recorders->summary()["solver"] = solver_report;
+        const unsigned int n_steps     = problem.parameters.solver.load_steps;
+        for (unsigned int number = 1; number <= n_steps; ++number)
+          {
+            Step<dim> step;
+            step.number                             = number;
+            step.time                               = static_cast<double>(number) / n_steps;
+            step.is_last                            = number == n_steps;
+            recorders->summary()["solver"]["steps"] = number;
+            solve(step);
+            recorders->observe(step);
+            check_convergence(step);
+            measure(step);
+            recorders->record(step);
+            if (step.is_last)
+              recorders->conclude(step);
+            recorders->write_fields(step);
+          }
+        return true;
+      }
+
+      void solve(Step<dim> &step)
+      {
+        const Timings::Scope scope(problem.run.timings, "solve");
+        problem.apply_loads(step.time);
+        State<dim> &state = problem.state;
+        NodalVector residual, correction;
+        problem.system->initialize(residual);
+        problem.system->initialize(correction);
+        problem.system->residual(residual, state.external_force, state.unknowns);
+        problem.free_motions.project(residual);
+
+        ProgressLine      progress(std::cout,
+                              problem.run.screen.is_active(),
+                              "solving t = " + short_number(step.time),
+                              problem.parameters.solver.tolerance);
+        const LinearSolve result =
+          solver->solve(correction, residual, [&](const unsigned int iteration, const double r) {
+            progress(iteration, r);
+          });
+        state.unknowns += correction;
+        step.search.iterations = result.iterations;
+        step.search.converged  = result.converged;
+        step.search.residuals  = result.residuals;
+        problem.store_displacement();
+      }
+
+      /// @throws ComputationError where the solver stopped before the tolerance.
+      void check_convergence(const Step<dim> &step) const
+      {
+        if (step.search.converged)
+          return;
+        throw ComputationError(
+          "the linear solver (" + solver->name() + ") stopped at t = " + short_number(step.time) + " after " +
+          std::to_string(step.search.iterations) + " iterations at a relative residual of " +
+          short_number(step.search.residuals.back()) + ", not at " +
+          short_number(problem.parameters.solver.tolerance) +
+          "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, enlarge "
+          "Nodes/Horizon "
+          "factor, take another Solver/Preconditioner, or check the scene with --check");
+      }
+
+      /// Energies and supports of the equilibrium.
+      void measure(Step<dim> &step) const
+      {
+        const State<dim> &state   = problem.state;
+        auto              balance = problem.loading.balance(
+          problem.discretisation, *problem.system, state.unknowns, state.external_force, step.time);
+        step.reactions       = std::move(balance.reactions);
+        step.energy.strain   = balance.strain_energy;
+        step.energy.external = balance.external_work;
+        if (balance.external_work != 0)
+          step.energy_error = (balance.external_work - balance.strain_energy) / balance.external_work;
+      }
+
+      std::unique_ptr<Preconditioning<dim>> preconditioning;
+      std::unique_ptr<LinearSolver<dim>>    solver;
+      nlohmann::ordered_json                solver_report;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Driver<dim>> create_static_driver(Problem<dim> &problem)
+  {
+    return std::make_unique<StaticDriver<dim>>(problem);
+  }
+
+  PERIDEAL_INSTANTIATE(create_static_driver)
+} // namespace perideal

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/text.h>
+#include <perideal/materials/lattice.h>
+#include <perideal/output/summary.h>
+#include <perideal/problem/advice.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin)
+  {
+    const bool consistent = parameters.model.is_consistent();
+    if (n_thin > 0)
+      return (parameters.model.has_forms() ? parameters.model.model->default_forms.failure : "energy") +
+             " form: " + grouped(n_thin) +
+             " cells lie in parts one cell thick, across which the consistent form has no gradient" +
+             (consistent ? "; two cells would do" : "");
+    const std::string why =
+      "elastic statics, every cell has a gradient: errors like those of Q1 finite elements";
+    if (consistent)
+      return "consistent form (chosen): " + why;
+    return "consistent form: " + why + ", where the " +
+           (parameters.model.has_forms() ? parameters.model.form + " form" :
+                                           parameters.model.model->name + " model") +
+           " is off by per cents at surfaces";
+  }
+
+  template <int dim>
+  GlobalIndex thin_cells(const Problem<dim> &problem)
+  {
+    const auto &deficient = problem.discretisation.gradient->deficient();
+    return dealii::Utilities::MPI::sum<GlobalIndex>(std::count(deficient.begin(), deficient.end(), true),
+                                                    problem.run.communicator);
+  }
+
+  namespace
+  {
+    /// Smallest sine between the edges of a cell corner (in 3-D their scaled
+    /// triple product) over the corners of all cells: 1 in boxes, 0 when collapsed.
+    template <int dim>
+    double smallest_corner(const Mesh<dim> &mesh)
+    {
+      double result = 1;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              dealii::Tensor<2, dim> edges;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  edges[d] = cell->vertex(v ^ (1u << d)) - cell->vertex(v);
+                  edges[d] /= edges[d].norm();
+                }
+              result = std::min(result, std::abs(determinant(edges)));
+            }
+      return dealii::Utilities::MPI::min(result, mesh.triangulation.get_communicator());
+    }
+
+    /// Bonds that are missing at surfaces.
+    template <int dim>
+    void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      const ModelParameters &model = problem.parameters.model;
+      if ((model.is_consistent() && model.is_linear_only()) || problem.loading.extension)
+        return;
+      const double      whole   = lattice_family<dim>(problem.parameters.nodes.horizon_factor).size;
+      const double      missing = 1. - problem.discretisation.families->statistics().mean / whole;
+      const std::string share   = "families lack " + short_number(std::round(100. * std::max(0., missing))) +
+                                " % of their bonds on average";
+      if (!model.model->corrects_surfaces && !model.compensates())
+        result.push_back("the " + model.model->name + " model has no surface correction: " + share +
+                         ", errors of several per cent are usual");
+      // Families of long cells have other numbers of members.
+      if (problem.discretisation.families->statistics().max < whole &&
+          problem.body.nodes->max_aspect_ratio < 1.5)
+        result.push_back(
+          "the body is nowhere two horizons thick: " + share +
+          ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
+          "extended ordinary with Form = consistent in statics");
+    }
+
+    /// What models do in motion that solids do not.
+    template <int dim>
+    void warn_of_motion(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      const ModelParameters &model = problem.parameters.model;
+      if (problem.parameters.solver.is_dynamic() && !model.form_traits().follows_from_energy)
+        result.push_back(
+          "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
+          "Material/Form = energy keeps what was put in");
+      const auto &conditions = problem.loading.loads.conditions;
+      if (model.is_tensor_involved() && !model.is_consistent() &&
+          std::none_of(
+            conditions.begin(), conditions.end(), [](const auto &c) { return c.prescribes_displacement(); }))
+        result.push_back("bonds with tensors do not let a body turn freely that nothing holds: at surfaces "
+                         "rotation costs energy, or sets it free where they push sideways or are cured");
+    }
+
+    /// Largest ratio of the sizes of two cells that share a face.
+    template <int dim>
+    double largest_jump(const Mesh<dim> &mesh)
+    {
+      double result = 1;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
+              {
+                const double ratio = cell->neighbor(f)->measure() / cell->measure();
+                result             = std::max({result, ratio, 1. / ratio});
+              }
+      return dealii::Utilities::MPI::max(std::pow(result, 1. / dim), mesh.triangulation.get_communicator());
+    }
+
+    /// Bonds that count whole cells where no weights make up for it.
+    template <int dim>
+    void warn_of_whole_cells(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      const ModelParameters &model   = problem.parameters.model;
+      const bool             springs = !model.model->corrects_surfaces;
+      if (problem.parameters.quadrature.counts_parts() || model.form_traits().is_made_for_each_family)
+        return;
+      const std::string advice = "take Quadrature/Scheme = partial volume | exact, or Material/Form = " +
+                                 (model.has_forms() ? model.model->default_forms.failure : "energy") +
+                                 " | consistent";
+      const double jump = largest_jump(*problem.body.mesh);
+      if (jump > 1.5)
+        result.push_back("cell sizes jump by a factor of " + short_number(jump) +
+                         " between neighbours, of which families here count whole cells or none: expect "
+                         "errors of tens of per cent; " +
+                         advice);
+      const double factor     = problem.parameters.nodes.horizon_factor;
+      const double anisotropy = springs ? lattice_anisotropy<dim>(factor) : 0.;
+      // Cubes at 3.01 have 0.13, squares at 2.01 have 0.75.
+      if (!(std::abs(anisotropy) < 0.15))
+        result.push_back("at a horizon factor of " + short_number(factor) + " bonds make regular cells " +
+                         (std::isfinite(anisotropy) ?
+                            short_number(100. * std::abs(anisotropy)) + " % too " +
+                              (anisotropy > 0 ? "stiff" : "soft") + " along the mesh, for their shear" :
+                            "of no shear stiffness") +
+                         ": take another factor, such as 3.01, " + advice.substr(5));
+    }
+
+    template <int dim>
+    void warn_of_cells(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      const double ratio = dealii::GridTools::maximal_cell_diameter(problem.body.mesh->triangulation) /
+                           dealii::GridTools::minimal_cell_diameter(problem.body.mesh->triangulation);
+      if (ratio > 100)
+        result.push_back("cell sizes differ by a factor of " + short_number(ratio) +
+                         ": expect more iterations");
+      // Spheres of three spacings reach no neighbour along the long side from 9 on.
+      const bool   spheres = problem.body.nodes->shape.empty();
+      const double aspect  = problem.body.nodes->max_aspect_ratio;
+      if (aspect > (spheres ? 4. : 10.))
+        result.push_back(
+          "aspect ratio of the cells up to " + short_number(aspect) + ": expect many iterations" +
+          (spheres ? ", and families that reach few neighbours or none along the long side" : ""));
+      const double corner = smallest_corner(*problem.body.mesh);
+      if (corner < 0.3)
+        result.push_back("distorted cells: the sharpest corner has a scaled Jacobian of " +
+                         short_number(corner) + " (1 is a box, 0 a collapsed cell)");
+    }
+
+    /// Solids that are none, and bonds with tensors that are unstable.
+    template <int dim>
+    void warn_of_solids(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      for (const auto &[id, solid] : problem.body.solids)
+        {
+          const std::string name     = problem.body.mesh->material_name(id);
+          const double      smallest = smallest_stiffness(solid);
+          if (smallest <= 0)
+            result.push_back("the stiffness of " + name +
+                             " is not positive definite: its smallest eigenvalue is " +
+                             short_number(smallest) + " Pa, so that some strains set energy free");
+          if (!problem.parameters.model.is_tensor_involved() || !problem.discretisation.model ||
+              smallest <= 0)
+            continue;
+          const double factor = problem.parameters.nodes.horizon_factor;
+          const double waves  = smallest_wave_stiffness(*problem.discretisation.model, solid, factor);
+          const double bonds  = smallest_bond_stiffness(*problem.discretisation.model, solid, factor);
+          if (waves <= 0)
+            result.push_back(
+              "bonds of " + name + " are unstable at a horizon factor of " + short_number(factor) +
+              ": short waves have negative stiffness, " + short_number(waves) +
+              " times that of the solid. Enlarge Nodes/Horizon factor, or take Material/Form = "
+              "consistent");
+          else if (bonds < -1e-12)
+            result.push_back(
+              "bonds of " + name + " push sideways, " + short_number(-bonds) +
+              " times what they pull along: stable inside the body, but perhaps not at its surfaces "
+              "and cracks");
+        }
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::string> warnings(const Problem<dim> &problem)
+  {
+    std::vector<std::string> result;
+    const bool               consistent = problem.parameters.model.is_consistent();
+    const auto               statistics = problem.discretisation.families->statistics();
+    const unsigned int       wanted     = dim == 2 ? 5 : 15;
+    if (!consistent && statistics.min < wanted)
+      result.push_back("the smallest family has " + std::to_string(statistics.min) +
+                       " members, fewer than the " + std::to_string(wanted) +
+                       (problem.parameters.model.model->has_law ? " that a gradient and what it misses take" :
+                                                                  " moment conditions") +
+                       ": enlarge Nodes/Horizon factor");
+    if (problem.parameters.model.is_correspondence() && consistent)
+      if (const GlobalIndex thin = thin_cells(problem); thin > 0)
+        result.push_back(grouped(thin) +
+                         " cells lie in parts one cell thick, across which they have no gradient: take "
+                         "two cells, or Material/Form = family");
+    if (problem.parameters.model.is_correspondence() && !consistent &&
+        std::stod(problem.parameters.model.stabilisation) == 0)
+      result.push_back(
+        "without a penalty the gradient of the family hardly sees some motions, which then cost next "
+        "to no energy: take Material/Stabilisation = automatic");
+    if (problem.discretisation.parts->n_bonds_across > 0)
+      result.push_back(
+        grouped(problem.discretisation.parts->n_bonds_across) +
+        " bonds join parts of the mesh that share no face, across gaps narrower than the horizon: they "
+        "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
+        "into it");
+    const double nu     = problem.parameters.material.body.poisson_ratio;
+    const bool   stress = dim == 2 && problem.parameters.material.assumption == PlaneAssumption::plane_stress;
+    if (!stress && nu > 0.45)
+      result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
+    if (problem.discretisation.counts.singular > 0)
+      result.push_back(
+        grouped(problem.discretisation.counts.singular) +
+        (consistent ? " cells lie in parts one cell thick, across which they have no gradient: take two "
+                      "cells, or Material/Form = energy" :
+                      " families miss a moment condition: uniform strain is not exact there (corners, thin "
+                      "parts, flat cells, small horizon); see the field \"family status\""));
+    if (problem.parameters.model.model->poisson_ratio)
+      for (const auto &solid : problem.body.solids)
+        {
+          const ElasticConstants &given = solid.second.isotropic();
+          const double            own   = problem.parameters.model.constants_of_model(given).poisson_ratio;
+          if (std::abs(own - given.poisson_ratio) > 1e-3)
+            result.push_back("bond-based materials have a Poisson's ratio of " + short_number(own) +
+                             " here: " + problem.body.mesh->material_name(solid.first) +
+                             " is not given its " + short_number(given.poisson_ratio));
+        }
+    warn_of_surfaces(problem, result);
+    warn_of_motion(problem, result);
+    if (consistent && problem.parameters.loads.holds_layer())
+      result.push_back("held nodes take from the consistent form the accuracy that face values have");
+    if (problem.loading.extension)
+      {
+        const ElasticSolid<dim> &solid = problem.body.solids.begin()->second;
+        const ElasticSolid<dim>  own =
+          problem.parameters.model.is_tensor_involved() ?
+             solid :
+             ElasticSolid<dim>(problem.parameters.model.constants_of_model(solid.isotropic()));
+        const double given = own.stiffness()[0][0][0][0];
+        const double share = (*problem.discretisation.family_stiffness)[0][0][0][0] / given - 1.;
+        if (std::abs(share) > 0.01)
+          result.push_back("families are " + short_number(100. * std::abs(share)) + " % " +
+                           (share > 0 ? "stiffer" : "softer") +
+                           " along x than the material, and so is the body: take Material/Model = extended "
+                           "ordinary, Form = energy, whose families are not");
+      }
+    warn_of_solids(problem, result);
+    warn_of_whole_cells(problem, result);
+    warn_of_cells(problem, result);
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE(thin_cells)
+  PERIDEAL_INSTANTIATE(warnings)
+
+} // namespace perideal

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/mesh/create_mesh.h>
+#include <perideal/problem/body.h>
+
+namespace perideal
+{
+  namespace
+  {
+    template <int dim>
+    const MaterialProperties &properties_on(const Mesh<dim>                 &mesh,
+                                            const MaterialParameters        &materials,
+                                            const dealii::types::material_id id)
+    {
+      for (const auto &group : materials.groups)
+        if (mesh.material_id(group.first, "Material/" + group.first) == id)
+          return group.second;
+      return materials.body;
+    }
+  } // namespace
+
+  template <int dim>
+  Body<dim>::Body(const SceneParameters &parameters)
+    : parameters(parameters)
+  {
+  }
+
+  template <int dim>
+  void Body<dim>::make_mesh(const std::string &scene_directory, MPI_Comm communicator)
+  {
+    mesh = create_mesh<dim>(parameters.mesh, communicator, scene_directory);
+    for (const std::string &name : parameters.comparison.profiles)
+      mesh->boundary_id(name, "Comparison/Profiles");
+    for (const std::string &name : parameters.boundary_stress)
+      mesh->boundary_id(name, "Output/Boundary stress");
+    for (const auto &group : parameters.material.groups)
+      mesh->material_id(group.first, "Material/" + group.first);
+    solids = solids_on(*mesh);
+  }
+
+  template <int dim>
+  void Body<dim>::make_nodes()
+  {
+    nodes = std::make_unique<Nodes<dim>>(*mesh, parameters.nodes);
+    prepare_cells(parameters.quadrature, *mesh, *nodes);
+    faces = find_boundary_faces(*mesh, *nodes);
+  }
+
+  template <int dim>
+  const MaterialProperties &Body<dim>::properties_of(const dealii::types::material_id id) const
+  {
+    return properties_on(*mesh, parameters.material, id);
+  }
+
+  template <int dim>
+  SolidsByMaterial<dim> Body<dim>::solids_on(const Mesh<dim> &other) const
+  {
+    SolidsByMaterial<dim> result;
+    for (const auto id : other.material_ids)
+      result[id] =
+        parameters.material.template elastic_solid<dim>(properties_on(other, parameters.material, id));
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Body)
+} // namespace perideal

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/materials/models.h>
+#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/linear/consistent_operator.h>
+#include <perideal/operators/linear/correspondence_tangent.h>
+#include <perideal/operators/linear/polynomial_response.h>
+#include <perideal/problem/discretisation.h>
+#include <perideal/quadrature/bond_volume.h>
+
+namespace perideal
+{
+  template <int dim>
+  SolidOf<dim> solids_of_model(const Body<dim> &body)
+  {
+    return [&body](const dealii::types::material_id id) {
+      const ElasticSolid<dim> &solid = body.solids.at(id);
+      const ModelParameters   &model = body.parameters.model;
+      return model.takes_any_symmetry() ? solid :
+                                          ElasticSolid<dim>(model.constants_of_model(solid.isotropic()));
+    };
+  }
+
+  template <int dim>
+  void Discretisation<dim>::find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud)
+  {
+    families = std::make_shared<Families<dim>>(cloud, create_volume_rule<dim>(parameters.quadrature));
+    if (families->statistics().min == 0)
+      throw InputError("a node has no neighbour within its horizon")
+        .parameter("Nodes/Horizon factor")
+        .hint("enlarge the factor, or give the body more than one cell");
+  }
+
+  template <int dim>
+  void Discretisation<dim>::find_parts(const Body<dim> &body, const BondPredicate<dim> &is_cut)
+  {
+    if (!parts)
+      parts.emplace(*body.mesh, *body.nodes, *families, is_cut);
+  }
+
+  template <int dim>
+  void Discretisation<dim>::make_gradient(const Body<dim> &body)
+  {
+    if (!gradient)
+      gradient = std::make_shared<const FaceGradient<dim>>(
+        *body.mesh, *body.nodes, [&](const dealii::types::material_id id) {
+          return body.solids.at(id).isotropic().shear_modulus();
+        });
+  }
+
+  template <int dim>
+  void Discretisation<dim>::weigh(const Body<dim>                        &body,
+                                  const std::shared_ptr<FaceValues<dim>> &face_values,
+                                  const std::vector<SurfaceFace<dim>>    &surface,
+                                  const BondPredicate<dim>               &is_cut)
+  {
+    const SceneParameters &parameters = body.parameters;
+    if (parameters.model.is_correspondence())
+      weigh_correspondence(body, face_values);
+    else if (parameters.model.is_consistent())
+      weigh_faces(body, face_values);
+    else if (parameters.quadrature.has_gauss_points())
+      weigh_gauss_points(body, surface);
+    else
+      weigh_nodes(body, surface, is_cut);
+    counts  = bonds->counts;
+    reports = bonds->reports;
+  }
+
+  template <int dim>
+  void Discretisation<dim>::weigh_faces(const Body<dim>                        &body,
+                                        const std::shared_ptr<FaceValues<dim>> &face_values)
+  {
+    bonds = std::make_shared<ConsistentOperator<dim>>(
+      families,
+      gradient,
+      face_values,
+      create_consistent<dim>(body.parameters.model, body.parameters.nodes.horizon_factor),
+      solids_of_model(body));
+  }
+
+  template <int dim>
+  void Discretisation<dim>::weigh_correspondence(const Body<dim>                        &body,
+                                                 const std::shared_ptr<FaceValues<dim>> &face_values)
+  {
+    const ModelParameters &parameters = body.parameters.model;
+    for (const auto &solid : body.solids)
+      laws[solid.first] = create_law<dim>(parameters.law, solid.second);
+    const bool by_faces = parameters.is_consistent();
+    correspondence      = std::make_shared<CorrespondenceRows<dim>>(
+      families,
+      by_faces ? gradient : nullptr,
+      by_faces ? face_values : nullptr,
+      create_correspondence<dim>(parameters),
+      [&](const dealii::types::material_id id) { return body.solids.at(id); });
+    bonds = std::make_shared<CorrespondenceTangent<dim>>(families, correspondence, laws);
+  }
+
+  template <int dim>
+  void Discretisation<dim>::measure_families(const Body<dim> &body)
+  {
+    const ComparisonParameters &comparison = body.parameters.comparison;
+    if (!comparison.by_families())
+      return;
+    if (!family_stiffness)
+      {
+        const PolynomialResponse<dim> response(*bonds, *families);
+        std::vector<std::uint8_t>     is_whole(families->n_owned());
+        for (LocalIndex i = 0; i < is_whole.size(); ++i)
+          is_whole[i] = !response.lacks_bonds(i);
+        family_stiffness = response.stiffness(is_whole);
+      }
+    if (!family_stiffness || body.mesh->material_ids.size() > 1)
+      throw InputError(family_stiffness ? "families of several materials have several stiffnesses" :
+                                          "no family is whole, from which stiffness could be told")
+        .parameter("Comparison/Stiffness")
+        .given("families")
+        .allowed("material for this scene");
+  }
+
+  template <int dim>
+  SolidsByMaterial<dim> Discretisation<dim>::compared_solids(const Body<dim> &body,
+                                                             const Mesh<dim> &mesh) const
+  {
+    if (!body.parameters.comparison.by_families())
+      return body.solids_on(mesh);
+    SolidsByMaterial<dim> result;
+    for (const auto id : mesh.material_ids)
+      result[id] = elastic_solid<dim>(*family_stiffness);
+    return result;
+  }
+
+  template <int dim>
+  std::unique_ptr<BondForce<dim>> Discretisation<dim>::create_force() const
+  {
+    if (correspondence)
+      return std::make_unique<CorrespondenceForce<dim>>(families, correspondence, laws);
+    return create_bond_force<dim>(*weights);
+  }
+
+  template <int dim>
+  std::shared_ptr<TangentOperator<dim>> Discretisation<dim>::create_tangent() const
+  {
+    // Of the correspondence model, the operator at rest is the tangent.
+    if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds);
+        correspondence && tangent)
+      return tangent;
+    return perideal::create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(weights));
+  }
+
+  PERIDEAL_INSTANTIATE(solids_of_model)
+  PERIDEAL_INSTANTIATE_CLASS(Discretisation)
+} // namespace perideal

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/parameters/stress_criteria.h>
+#include <perideal/problem/failure.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Gives bonds that break by stress the strengths of their materials.
+    template <int dim>
+    void set_strengths(const Body<dim>                                               &body,
+                       const std::function<bool(const LocalIndex, const LocalIndex)> &can_break,
+                       CorrespondenceForce<dim>                                      &force)
+    {
+      std::map<dealii::types::material_id, StressCriterion> criteria;
+      for (const auto id : body.mesh->material_ids)
+        criteria[id] = stress_criterion(body.parameters.material, body.properties_of(id));
+      force.set_strength(
+        [criteria](const dealii::types::material_id id, const dealii::SymmetricTensor<2, 3> &stress) {
+          return criteria.at(id).utilisation(stress);
+        },
+        can_break);
+    }
+  } // namespace
+
+  template <int dim>
+  void Failure<dim>::prepare(const Body<dim> &body)
+  {
+    for (const PrecrackText &text : body.parameters.precracks.cracks)
+      precracks.emplace_back(text, *body.mesh);
+    if (body.parameters.no_fail.zones.empty())
+      return;
+    no_fail_zones   = std::make_unique<NoFailZones<dim>>(body.parameters.no_fail, *body.mesh);
+    n_no_fail_nodes = no_fail_zones->count(*body.nodes);
+  }
+
+  template <int dim>
+  BondPredicate<dim> Failure<dim>::precrack_test() const
+  {
+    if (precracks.empty())
+      return {};
+    return [this](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
+      return std::any_of(
+        precracks.begin(), precracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
+    };
+  }
+
+  template <int dim>
+  double Failure<dim>::critical_stretch(const Body<dim>                 &body,
+                                        const dealii::types::material_id id,
+                                        const double                     horizon)
+  {
+    const MaterialProperties &material = body.properties_of(id);
+    if (material.critical_stretch > 0)
+      return material.critical_stretch;
+    if (material.fracture_energy > 0)
+      return body.parameters.model.critical_stretch(
+        body.solids.at(id).isotropic(), material.fracture_energy, horizon);
+    return std::numeric_limits<double>::infinity();
+  }
+
+  template <int dim>
+  void
+  Failure<dim>::apply(const Body<dim> &body, const Discretisation<dim> &discretisation, BondForce<dim> &force)
+  {
+    if (!precracks.empty())
+      n_cut_bonds = force.cut(precrack_test());
+    if (!can_break(body.parameters))
+      return;
+    const Families<dim> &families = *discretisation.families;
+    std::vector<bool>    unbreakable(families.n_local(), false);
+    if (no_fail_zones)
+      for (LocalIndex i = 0; i < families.n_local(); ++i)
+        unbreakable[i] = no_fail_zones->contains(families.position[i]);
+    if (auto *by_stress = dynamic_cast<CorrespondenceForce<dim> *>(&force))
+      {
+        set_strengths<dim>(
+          body,
+          [&](const LocalIndex i, const LocalIndex j) { return !unbreakable[i] && !unbreakable[j]; },
+          *by_stress);
+        return;
+      }
+    force.set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
+      if (unbreakable[i] || unbreakable[j])
+        return std::numeric_limits<double>::infinity();
+      // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
+      const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
+      return std::min(critical_stretch(body, families.material[i], horizon),
+                      critical_stretch(body, families.material[j], horizon));
+    });
+  }
+
+  template <int dim>
+  std::vector<double> total_damage(const BondForce<dim> &force)
+  {
+    std::vector<double>       result = force.damage();
+    const std::vector<double> cut    = force.cut_share();
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += cut[i];
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Failure)
+  PERIDEAL_INSTANTIATE(total_damage)
+} // namespace perideal

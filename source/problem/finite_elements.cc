@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/mesh/create_mesh.h>
+#include <perideal/problem/finite_elements.h>
+
+namespace perideal
+{
+  template <int dim>
+  NodalField<dim> at_nodes(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+  {
+    if (fem.is_on_mesh_itself())
+      return on_mesh_at_nodes<dim>(problem, fem);
+    auto result = fem.evaluate(problem.body.nodes->position);
+    problem.free_motions.remove_mean(*problem.body.nodes, result);
+    return result;
+  }
+
+  template <int dim>
+  NodalField<dim> reference_at_nodes(Problem<dim> &problem)
+  {
+    const ComparisonParameters &comparison = problem.parameters.comparison;
+    std::unique_ptr<Mesh<dim>>  own_mesh;
+    if (!comparison.reference_mesh.empty())
+      {
+        MeshParameters mesh = problem.parameters.mesh;
+        mesh.file           = comparison.reference_mesh;
+        mesh.generator.clear();
+        mesh.distortion  = 0.;
+        mesh.refinements = mesh.refine_times = 0;
+        own_mesh = create_mesh<dim>(mesh, problem.run.communicator, problem.run.context.scene_directory);
+      }
+    const Mesh<dim>     &mesh = own_mesh ? *own_mesh : *problem.body.mesh;
+    const Timings::Scope scope(problem.run.timings, "reference");
+    ElasticFem<dim>      fem(mesh, problem.loading.loads, 2, comparison.reference_refinements);
+    fem.assemble(problem.discretisation.compared_solids(problem.body, mesh), 1.);
+    fem.set_up_solver();
+    // Far below the discretisation errors that are to be seen.
+    fem.solve(1e-10);
+    auto result = fem.evaluate(problem.body.nodes->position);
+    problem.free_motions.remove_mean(*problem.body.nodes, result);
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE(at_nodes)
+  PERIDEAL_INSTANTIATE(reference_at_nodes)
+} // namespace perideal

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/registry.h>
+#include <perideal/boundary/nodal_strain.h>
+#include <perideal/materials/elastic_state.h>
+#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/problem/output_fields.h>
+#include <perideal/problem/problem.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Whether a field is made from the face gradient of the body.
+    enum class Source
+    {
+      state,
+      gradient
+    };
+
+    template <int dim>
+    struct Field
+    {
+      void (*add)(const Problem<dim> &, FieldOutput<dim> &);
+      Source source = Source::state;
+    };
+
+    template <int dim>
+    void add_comparison(const Problem<dim> &problem, const std::string &name, FieldOutput<dim> &output)
+    {
+      const auto solution = problem.state.comparisons.find(name);
+      if (solution != problem.state.comparisons.end())
+        output.add_vector(name + "_displacement", solution->second);
+    }
+
+    template <int dim>
+    void add_error(const Problem<dim> &problem, FieldOutput<dim> &output)
+    {
+      for (const auto &solution : problem.state.comparisons)
+        {
+          NodalField<dim> error = problem.state.displacement;
+          for (LocalIndex i = 0; i < error.size(); ++i)
+            error[i] -= solution.second[i];
+          output.add_vector("error_against_" + solution.first, error);
+        }
+    }
+
+    /// A number of each family.
+    template <int dim, typename Value>
+    void add_family_scalar(const Problem<dim> &problem,
+                           const std::string  &name,
+                           const Value        &value,
+                           FieldOutput<dim>   &output)
+    {
+      std::vector<double> values(problem.body.nodes->size());
+      for (LocalIndex i = 0; i < values.size(); ++i)
+        values[i] = value(i);
+      output.add_scalar(name, values);
+    }
+
+    /// Green's strain in space, of linear laws the small strain.
+    template <int dim>
+    dealii::SymmetricTensor<2, 3> strain_of(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &H)
+    {
+      const dealii::SymmetricTensor<2, dim> in_plane =
+        law.is_linear() ? symmetrize(H) : symmetrize(H + 0.5 * transpose(H) * H);
+      dealii::SymmetricTensor<2, 3> result;
+      for (int i = 0; i < dim; ++i)
+        for (int j = i; j < dim; ++j)
+          result[i][j] = in_plane[i][j];
+      const double across = law.thickness_stretch(H);
+      if (dim == 2)
+        result[2][2] = law.is_linear() ? across - 1. : 0.5 * (across * across - 1.);
+      return result;
+    }
+
+    /// Strain and stress of the nodes.
+    template <int dim>
+    std::vector<ElasticState> states_of(const Problem<dim> &problem)
+    {
+      std::vector<ElasticState> result;
+      if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get()))
+        {
+          for (const auto &H : force->gradients())
+            {
+              const HyperelasticLaw<dim> &law = force->law(result.size());
+              result.push_back({strain_of(law, H), law.cauchy_stress(H), law.energy(H)});
+            }
+          return result;
+        }
+      for (const auto &strain : compute_nodal_strain(*problem.discretisation.gradient,
+                                                     *problem.loading.face_values,
+                                                     *problem.body.nodes,
+                                                     problem.state.displacement))
+        result.push_back(
+          elastic_state<dim>(strain, problem.body.solids.at(problem.body.nodes->material[result.size()])));
+      return result;
+    }
+
+    template <int dim>
+    void add_state_tensor(const Problem<dim>           &problem,
+                          const std::string            &name,
+                          dealii::SymmetricTensor<2, 3> ElasticState::*tensor,
+                          FieldOutput<dim>                            &output)
+    {
+      std::vector<dealii::SymmetricTensor<2, 3>> values;
+      for (const ElasticState &state : states_of(problem))
+        values.push_back(state.*tensor);
+      output.add_tensor(name, values);
+    }
+
+    template <int dim, typename Value>
+    void add_state_scalar(const Problem<dim> &problem,
+                          const std::string  &name,
+                          const Value        &value,
+                          FieldOutput<dim>   &output)
+    {
+      std::vector<double> values;
+      for (const ElasticState &state : states_of(problem))
+        values.push_back(value(state));
+      output.add_scalar(name, values);
+    }
+
+    /// The list of fields: a new one is one line here.
+    template <int dim>
+    const Registry<Field<dim>> &fields()
+    {
+      using Scene  = const Problem<dim> &;
+      using Output = FieldOutput<dim> &;
+      static const Registry<Field<dim>> list(
+        "Output/Fields",
+        {{"displacement", {[](Scene s, Output o) { o.add_vector("displacement", s.state.displacement); }}},
+         {"velocity", {[](Scene s, Output o) {
+            if (!s.state.velocity.empty())
+              o.add_vector("velocity", s.state.velocity);
+          }}},
+         {"damage", {[](Scene s, Output o) {
+            if (s.force)
+              o.add_scalar("damage", s.force->damage());
+          }}},
+         {"precracks", {[](Scene s, Output o) {
+            if (s.force)
+              o.add_scalar("precracks", s.force->cut_share());
+          }}},
+         {"fem", {[](Scene s, Output o) { add_comparison(s, "fem", o); }}},
+         {"reference", {[](Scene s, Output o) { add_comparison(s, "reference", o); }}},
+         {"exact", {[](Scene s, Output o) { add_comparison(s, "exact", o); }}},
+         {"error", {[](Scene s, Output o) { add_error(s, o); }}},
+         {"dilatation", {[](Scene s, Output o) {
+            const auto dilatation = s.force ? s.force->dilatation() : s.discretisation.bonds->dilatation();
+            add_family_scalar(
+              s, "dilatation", [&](LocalIndex i) { return dilatation[i]; }, o);
+          }}},
+         {"strain",
+          {[](Scene s, Output o) { add_state_tensor(s, "strain", &ElasticState::strain, o); },
+           Source::gradient}},
+         {"stress",
+          {[](Scene s, Output o) { add_state_tensor(s, "stress", &ElasticState::stress, o); },
+           Source::gradient}},
+         {"von mises",
+          {[](Scene s, Output o) {
+             add_state_scalar(s, "von_mises_stress", std::mem_fn(&ElasticState::von_mises), o);
+           },
+           Source::gradient}},
+         {"principal stress",
+          {[](Scene s, Output o) {
+             add_state_scalar(
+               s, "largest_principal_stress", std::mem_fn(&ElasticState::largest_principal), o);
+             add_state_scalar(
+               s, "smallest_principal_stress", std::mem_fn(&ElasticState::smallest_principal), o);
+           },
+           Source::gradient}},
+         {"strain energy density",
+          {[](Scene s, Output o) {
+             add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);
+           },
+           Source::gradient}},
+         {"volume", {[](Scene s, Output o) { o.add_scalar("volume", s.body.nodes->volume); }}},
+         {"horizon", {[](Scene s, Output o) { o.add_scalar("horizon", s.body.nodes->horizon); }}},
+         {"material", {[](Scene s, Output o) {
+            add_family_scalar(
+              s, "material", [&](LocalIndex i) { return double(s.body.nodes->material[i]); }, o);
+          }}},
+         {"neighbours", {[](Scene s, Output o) {
+            add_family_scalar(
+              s, "neighbours", [&](LocalIndex i) { return double(s.discretisation.families->size(i)); }, o);
+          }}},
+         // 1: spherical or compromised weights, 2: a moment condition missed, 4: negative deviatoric weights
+         // met.
+         {"family status", {[](Scene s, Output o) {
+            const auto status = [&](LocalIndex i) {
+              const FamilyReport &report = s.discretisation.reports[i];
+              return double(report.fallback + 2 * report.singular + 4 * report.indefinite);
+            };
+            add_family_scalar(s, "family_status", status, o);
+          }}}});
+      return list;
+    }
+  } // namespace
+
+  std::vector<std::string> output_field_names()
+  {
+    return fields<2>().names();
+  }
+
+  bool needs_gradient(const std::vector<std::string> &names)
+  {
+    return std::any_of(names.begin(), names.end(), [](const std::string &name) {
+      return fields<2>().get(name).source == Source::gradient;
+    });
+  }
+
+  template <int dim>
+  void add_output_fields(const Problem<dim>             &problem,
+                         const std::vector<std::string> &names,
+                         FieldOutput<dim>               &output)
+  {
+    for (const std::string &name : names)
+      fields<dim>().get(name).add(problem, output);
+  }
+
+  PERIDEAL_INSTANTIATE(add_output_fields)
+} // namespace perideal

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/problem/finite_elements.h>
+#include <perideal/problem/free_motions.h>
+#include <perideal/problem/output_fields.h>
+#include <perideal/problem/problem.h>
+
+namespace perideal
+{
+  template <int dim>
+  Problem<dim>::Problem(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator)
+    : parameters(parameters)
+    , run(context, communicator)
+    , body(parameters)
+    , loading(body)
+  {
+  }
+
+  template <int dim>
+  void Problem<dim>::build()
+  {
+    {
+      const Timings::Scope scope(run.timings, "mesh");
+      body.make_mesh(run.context.scene_directory, run.communicator);
+      loading.read();
+    }
+    const Timings::Scope scope(run.timings, "neighbours");
+    body.make_nodes();
+    loading.choose_nodes();
+    discretisation.find_families(parameters, loading.images->nodes());
+    loading.place_point_forces();
+  }
+
+  template <int dim>
+  void Problem<dim>::find_motions()
+  {
+    discretisation.find_parts(body, failure.precrack_test());
+    free_motions = find_free_motions(loading, *discretisation.parts);
+  }
+
+  template <int dim>
+  void Problem<dim>::weigh()
+  {
+    const Timings::Scope   scope(run.timings, "setup");
+    const ModelParameters &model  = parameters.model;
+    const auto             is_cut = failure.precrack_test();
+    discretisation.find_parts(body, is_cut);
+    if (model.is_linear_only() || model.is_consistent() ||
+        (needs_gradient(parameters.field_names()) &&
+         !(model.is_correspondence() && parameters.solver.is_nonlinear_static())))
+      {
+        const Timings::Scope part(run.timings, "setup: face gradient");
+        discretisation.make_gradient(body);
+        loading.take_face_values(*discretisation.gradient);
+      }
+    {
+      const Timings::Scope part(run.timings, "setup: weights");
+      discretisation.weigh(body, loading.face_values, loading.surface, is_cut);
+    }
+    loading.surround(discretisation, run.timings);
+    discretisation.measure_families(body);
+    system = std::make_unique<ConstrainedOperator<dim>>(
+      discretisation.bonds, loading.images, loading.unknowns(), loading.held.mask());
+  }
+
+  template <int dim>
+  void Problem<dim>::solve_reference()
+  {
+    const ComparisonParameters &comparison = parameters.comparison;
+    if (!comparison.reference && parameters.loads.displacement_treatment != DisplacementTreatment::reference)
+      return;
+    run.screen << "reference   Q2 finite elements, " << comparison.reference_refinements << " refinement(s)"
+               << (comparison.reference_mesh.empty() ? "" : " of " + comparison.reference_mesh) << std::endl;
+    state.comparisons["reference"] = reference_at_nodes(*this);
+  }
+
+  template <int dim>
+  void Problem<dim>::make_force()
+  {
+    const Timings::Scope scope(run.timings, "setup");
+    force = discretisation.create_force();
+  }
+
+  template <int dim>
+  void Problem<dim>::make_failure()
+  {
+    const Timings::Scope scope(run.timings, "setup");
+    failure.apply(body, discretisation, *force);
+  }
+
+  template <int dim>
+  void Problem<dim>::check_loads()
+  {
+    system->initialize(state.unknowns);
+    system->initialize(state.external_force);
+    loading.check_finite(1.);
+    apply_loads(1.);
+    NodalVector residual;
+    system->initialize(residual);
+    system->residual(residual, state.external_force, state.unknowns);
+    // What bonds, ghosts and the published transfer make of tractions balances roughly; the tractions must.
+    const double share =
+      parameters.loads.act_in_depth() && parameters.loads.traction_treatment != TractionTreatment::transfer ?
+        free_motions.share_in(loading.forces_on_body(), run.communicator) :
+        free_motions.share_in(residual);
+    if (share > 1e-6)
+      throw InputError("the loads push the body along a rigid-body motion that nothing holds")
+        .parameter("Boundary conditions/Rigid body motions")
+        .hint("balance the loads, or hold the body");
+    state.unknowns = 0.;
+  }
+
+  template <int dim>
+  void Problem<dim>::apply_loads(const double time)
+  {
+    loading.move_supports(time);
+    loading.external_force(discretisation, time, state.external_force);
+    const bool at_reference = parameters.loads.displacement_treatment == DisplacementTreatment::reference;
+    loading.prescribe(time, at_reference ? &state.comparisons.at("reference") : nullptr, state.unknowns);
+  }
+
+  template <int dim>
+  void Problem<dim>::store_displacement()
+  {
+    state.displacement.resize(body.nodes->size());
+    for (LocalIndex i = 0; i < body.nodes->size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        state.displacement[i][d] = state.unknowns.local_element(dim * i + d);
+    free_motions.remove_mean(*body.nodes, state.displacement);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Problem)
+} // namespace perideal

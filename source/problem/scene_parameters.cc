@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/parameters/named_texts.h>
+#include <perideal/problem/output_fields.h>
+#include <perideal/problem/scene_parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  void ComparisonParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Comparison");
+    prm.add_parameter("FEM",
+                      fem,
+                      "Solve with finite elements on the same mesh and compare; of the same law along the "
+                      "same load steps, where quasi static has Material/Model = correspondence, else linear",
+                      Bool());
+    prm.add_parameter("FEM degree", fem_degree, "Degree of these elements: Q1 or Q2 [-]", Integer(1, 2));
+    prm.add_parameter("Reference",
+                      reference,
+                      "Solve with Q2 finite elements on the refined mesh and compare with that as converged",
+                      Bool());
+    prm.add_parameter("Reference refinements",
+                      reference_refinements,
+                      "Refinements of the mesh for the reference; 0 is Q2 on the mesh itself, -1 on the "
+                      "mesh with one of its Mesh/Refinements less, for bodies that leave no room for more",
+                      Integer(-1, 4));
+    prm.add_parameter("Stiffness",
+                      stiffness,
+                      "Of what the finite elements are made: material: of the material; families: of a solid "
+                      "as stiff as whole "
+                      "families are by their quadrature, which shows what boundary conditions alone are off "
+                      "by (one material, "
+                      "regular meshes)");
+    prm.add_parameter(
+      "Reference mesh",
+      reference_mesh,
+      "Gmsh file of the same body, with the same names of boundaries and materials, on which the "
+      "reference is solved; empty: the mesh of the scene. It shows what a mesh makes of the body's "
+      "shape",
+      Anything());
+    prm.add_parameter("Profiles",
+                      profiles,
+                      "Boundaries (physical names or ids) along which displacements are written to "
+                      "profile_NAME.csv and compared",
+                      List(Anything(), 0, List::max_int_value, ","));
+    const char *axes[] = {"x", "y", "z"};
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("Exact u_") + axes[d],
+                        exact[d],
+                        std::string("Exact displacement along ") + axes[d] +
+                          " [m], a formula in x, y, z, t, compared at the end of the run; empty: not known");
+    lines = named_texts<LineText>(file, "Comparison");
+    for (LineText &line : lines)
+      {
+        prm.enter_subsection(line.name);
+        prm.add_parameter("From", line.from, "Where a line through the body begins: coordinates [m]");
+        prm.add_parameter("To",
+                          line.to,
+                          "Where it ends: coordinates [m]. Along it displacements are written to "
+                          "profile_NAME.csv and compared");
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+  }
+
+  void InitialParameters::declare(dealii::ParameterHandler &prm)
+  {
+    const char *axes[] = {"x", "y", "z"};
+    prm.enter_subsection("Initial conditions");
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("v_") + axes[d],
+                        velocity[d],
+                        std::string("Velocity at t = 0 along ") + axes[d] +
+                          " [m/s], a formula in x, y, z, in dynamics; empty: at rest");
+    prm.leave_subsection();
+  }
+
+  void CheckpointParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Checkpoints");
+    prm.add_parameter("Steps",
+                      steps,
+                      "Steps of dynamics, or load steps of quasi static and dynamic relaxation, between two "
+                      "checkpoints, from which a run that was stopped goes on; 0: only when the program is "
+                      "asked to stop (SIGTERM, SIGINT), which it does after the step",
+                      Integer(0));
+    prm.add_parameter(
+      "Restart",
+      restart,
+      "Go on from the last checkpoint in Output directory; any number of ranks may do so, and "
+      "Solver/End time and the section Output may change",
+      Bool());
+    prm.leave_subsection();
+  }
+
+  void SceneParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Dimension", dimension, "Dimensions of space", dealii::Patterns::Integer(2, 3));
+    prm.add_parameter("Output directory",
+                      output_directory,
+                      "Directory for the results, from the current directory; created when missing");
+    mesh.declare(prm);
+    nodes.declare(prm);
+    quadrature.declare(prm);
+    model.declare(prm);
+    material.declare(prm, file);
+    solver.declare(prm);
+    loads.declare(prm, file);
+    initial.declare(prm);
+    precracks.declare(prm, file);
+    no_fail.declare(prm, file);
+    cracks.declare(prm, file);
+    checkpoints.declare(prm);
+    contact.declare(prm);
+    comparison.declare(prm, file);
+    areal_forces.declare(prm, file);
+    gauges.declare(prm, file);
+    prm.enter_subsection("Output");
+    prm.add_parameter(
+      "Fields",
+      fields,
+      "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()) +
+        ". family status adds up 1: fallback weights, 2: a moment condition missed, 4: negative "
+        "deviatoric weights met");
+    prm.add_parameter(
+      "Boundary stress",
+      boundary_stress,
+      "Boundaries (physical names or ids) whose stresses, recovered at each face, are written to "
+      "stress_NAME.csv, with the extremes in summary.json",
+      List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter("Frames", frames, "Field files that dynamics leave, at equal times", Integer(1));
+    prm.add_parameter(
+      "History steps", history_steps, "Steps between two rows of the history of dynamics", Integer(1));
+    prm.add_parameter("Nominal stress",
+                      nominal_stress,
+                      "Stress [Pa] that the largest principal stress of each of these boundaries is divided "
+                      "by: their concentration; 0: none",
+                      Double(0));
+    prm.leave_subsection();
+  }
+
+  void SceneParameters::read(const ParameterFile &file, dealii::ParameterHandler &prm)
+  {
+    declare(prm, file);
+    file.apply(prm);
+    nodes.check();
+    quadrature.check();
+    material.check(dimension);
+    solver.check();
+    cracks.check();
+    contact.check();
+    resolve();
+    if (comparison.reference_refinements < 0 && mesh.refinements == 0)
+      throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
+        .parameter("Comparison/Reference refinements")
+        .allowed("0 to 4, or -1 where Mesh/Refinements is 1 or more");
+    if (!comparison.reference_mesh.empty() && comparison.reference_refinements < 0)
+      throw InputError("a mesh of its own for the reference is not refined before")
+        .parameter("Comparison/Reference refinements")
+        .allowed("0 to 4 with a Reference mesh");
+    if (!comparison.reference_mesh.empty() && !comparison.reference &&
+        loads.displacement_treatment != DisplacementTreatment::reference)
+      throw InputError("a mesh is given for a reference that is not asked for")
+        .parameter("Comparison/Reference mesh")
+        .hint("set Comparison/Reference = true, or remove it");
+    for (const std::string &field : field_names())
+      {
+        const auto known = output_field_names();
+        if (std::find(known.begin(), known.end(), field) == known.end())
+          throw InputError("unknown field")
+            .parameter("Output/Fields")
+            .given(field)
+            .allowed(join_choices(known))
+            .nearest(nearest_name(field, known));
+      }
+  }
+
+  std::vector<std::string> SceneParameters::field_names() const
+  {
+    return dealii::Utilities::split_string_list(fields, ',');
+  }
+
+  bool can_break(const SceneParameters &parameters)
+  {
+    const auto breaks = [](const MaterialProperties &m) {
+      return m.fracture_energy > 0 || m.critical_stretch > 0 || m.tensile_strength > 0;
+    };
+    return (parameters.solver.is_dynamic() || parameters.solver.is_nonlinear_static()) &&
+           (breaks(parameters.material.body) ||
+            std::any_of(parameters.material.groups.begin(),
+                        parameters.material.groups.end(),
+                        [&](const auto &group) { return breaks(group.second); }));
+  }
+
+  bool has_contact(const SceneParameters &parameters)
+  {
+    if (parameters.contact.enabled == ContactChoice::automatic)
+      return can_break(parameters) || !parameters.precracks.cracks.empty();
+    return parameters.contact.enabled == ContactChoice::yes;
+  }
+} // namespace perideal

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/fracture/crack_tracker.h>
+#include <perideal/output/summary.h>
+#include <perideal/recorders/make_recorders.h>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    /// Follows the cracks that the scene names: their tips by step, and their paths at the end.
+    template <int dim>
+    class CracksRecorder : public Recorder<dim>
+    {
+    public:
+      CracksRecorder(const Problem<dim> &problem, const RunKind &kind)
+        : problem(problem)
+        , kind(kind)
+        , tracker(problem.parameters.cracks, *problem.body.nodes)
+      {
+      }
+
+      std::string name() const override { return "cracks"; }
+
+      void start(Json &) override { tracker.start(problem.force->cut_share()); }
+
+      void observe(const Step<dim> &step, const Record &) override
+      {
+        if (step.newly_broken > 0 || kind.has_iterations)
+          tracker.update(step.time, total_damage(*problem.force));
+      }
+
+      void record(const Step<dim> &step, const Record &record) override
+      {
+        if (step.n_broken != n_collected)
+          tracker.collect();
+        n_collected        = step.n_broken;
+        const char *axes[] = {"x", "y", "z"};
+        for (const auto &tip : tracker.tips(step.time))
+          {
+            for (int d = 0; d < dim; ++d)
+              record.history.add(std::string("tip ") + axes[d] + " of " + tip.name + " [m]", tip.position[d]);
+            record.history.add("reach of " + tip.name + " [m]", tip.reach);
+            record.history.add("speed of " + tip.name + " [m/s]", tip.speed);
+          }
+      }
+
+      void finish(Json &summary) override
+      {
+        summary["cracks"] = tracker.describe();
+        tracker.write_paths(problem.parameters.output_directory);
+      }
+
+      std::string describe(const Json &summary, const bool) const override
+      {
+        std::string text;
+        if (!kind.has_motion || !summary.contains("cracks"))
+          return text;
+        for (const auto &crack : summary["cracks"].items())
+          {
+            const Json &figures = crack.value();
+            text += "crack       " + crack.key() + ": from " + number(figures["first_time"]) +
+                    " s on, reach " + number(figures["reach"]) + " m, angle " + number(figures["angle"]) +
+                    " degrees, speed " + number(figures["speed"]) + " m/s" + describe_branching(figures) +
+                    '\n';
+          }
+        return text;
+      }
+
+      Json save(const Json &, Checkpoint &checkpoint) const override
+      {
+        checkpoint.fields["crack"] = tracker.state();
+        checkpoint.fields["crack"].resize(problem.loading.unknowns().size());
+        return Json::object();
+      }
+
+      void resume(const Json &, const Checkpoint &checkpoint, Json &) override
+      {
+        std::vector<double> state = checkpoint.fields.at("crack");
+        state.resize(problem.body.nodes->size());
+        tracker.resume(state);
+      }
+
+    private:
+      static std::string number(const Json &value)
+      {
+        return value.is_number() ? short_number(value.get<double>()) : "-";
+      }
+
+      static std::string describe_branching(const Json &crack)
+      {
+        if (!crack.contains("branching"))
+          return {};
+        const Json &branching = crack["branching"];
+        if (branching.is_null())
+          return "; no branches";
+        return "; " + std::to_string(branching["branches"].get<unsigned int>()) + " branches from " +
+               number(branching["reach"]) + " m, " + number(branching["time"]) + " s, " +
+               number(branching["full_angle"]) + " degrees between the outermost";
+      }
+
+      const Problem<dim> &problem;
+      const RunKind       kind;
+      CrackTracker<dim>   tracker;
+      /// Broken bonds when the cracks were last looked at.
+      GlobalIndex n_collected = 0;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Recorder<dim>> make_cracks_recorder(Problem<dim> &problem, const RunKind &kind)
+  {
+    if (problem.parameters.cracks.cracks.empty())
+      return nullptr;
+    return std::make_unique<CracksRecorder<dim>>(problem, kind);
+  }
+
+  PERIDEAL_INSTANTIATE(make_cracks_recorder)
+} // namespace perideal

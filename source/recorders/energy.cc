@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/output/summary.h>
+#include <perideal/recorders/make_recorders.h>
+
+#include <cmath>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  namespace
+  {
+    /// Records energies [J] and the error of their balance, which in the summary of motions is the worst so
+    /// far.
+    template <int dim>
+    class EnergyRecorder : public Recorder<dim>
+    {
+    public:
+      EnergyRecorder(const RunKind &kind, const bool with_contact)
+        : kind(kind)
+        , with_contact(with_contact)
+      {
+      }
+
+      std::string name() const override { return "energy"; }
+
+      void record(const Step<dim> &step, const Record &record) override
+      {
+        const EnergyBudget &energy = step.energy;
+        History            &row    = record.history;
+        if (kind.has_motion)
+          row.add("kinetic energy [J]", energy.kinetic);
+        row.add("strain energy [J]", energy.strain);
+        if (with_contact)
+          row.add("contact energy [J]", energy.contact);
+        const bool is_nonlinear = kind.has_motion || kind.has_iterations;
+        if (is_nonlinear)
+          row.add("dissipated energy [J]", energy.dissipated);
+        if (kind.has_motion)
+          row.add("damped energy [J]", energy.damped);
+        row.add("external work [J]", energy.external);
+        if (is_nonlinear)
+          row.add("drift [-]", step.energy_error);
+
+        if (!kind.has_motion || !(std::abs(step.energy_error) <= std::abs(worst)))
+          worst = step.energy_error;
+        Json &summary = record.summary["energy"];
+        summary       = {{"strain", energy.strain}};
+        if (kind.has_motion)
+          summary.update({{"kinetic", energy.kinetic}, {"contact", energy.contact}});
+        if (is_nonlinear)
+          summary["dissipated"] = energy.dissipated;
+        if (kind.has_motion)
+          {
+            summary["damped"]          = energy.damped;
+            record.summary["momentum"] = Json::array();
+            for (int d = 0; d < dim; ++d)
+              record.summary["momentum"].push_back(step.momentum[d]);
+          }
+        summary.update({{"external", energy.external}, {"drift", worst}});
+      }
+
+      std::string describe(const Json &summary, const bool) const override
+      {
+        if (!kind.has_motion || !summary.contains("energy"))
+          return {};
+        const Json &energy = summary.at("energy");
+        const auto  number = [&](const char *part) {
+          const Json &value = energy.at(part);
+          return value.is_number() ? short_number(value.get<double>()) : std::string("-");
+        };
+        std::string text = "energy      " + number("kinetic") + " J kinetic, " + number("strain") +
+                           " J strain, " + number("dissipated") + " J dissipated, " + number("external") +
+                           " J put in; error " + number("drift") + '\n';
+        if (!(std::abs(worst) <= 0.01))
+          text +=
+            "warning     the energy is off by more than 1 %: take a smaller time step, or a form that has "
+            "an energy\n";
+        return text;
+      }
+
+      Json save(const Json &summary, Checkpoint &) const override
+      {
+        return {{"worst", worst}, {"energy", summary.value("energy", Json::object())}};
+      }
+
+      void resume(const Json &state, const Checkpoint &, Json &summary) override
+      {
+        worst = state.at("worst").get<double>();
+        if (!state.at("energy").empty())
+          summary["energy"] = state.at("energy");
+      }
+
+    private:
+      const RunKind kind;
+      const bool    with_contact;
+      double        worst = 0;
+    };
+  } // namespace
+
+  template <int dim>
+  std::unique_ptr<Recorder<dim>> make_energy_recorder(Problem<dim> &problem, const RunKind &kind)
+  {
+    return std::make_unique<EnergyRecorder<dim>>(kind, kind.has_motion && has_contact(problem.parameters));
+  }
+
+  PERIDEAL_INSTANTIATE(make_energy_recorder)
+} // namespace perideal

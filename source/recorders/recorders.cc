@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/versions.h>
+#include <perideal/output/summary.h>
+#include <perideal/problem/description.h>
+#include <perideal/problem/output_fields.h>
+#include <perideal/recorders/recorders.h>
+#include <perideal/recorders/report.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <limits>
+
+namespace perideal
+{
+  using Json = nlohmann::ordered_json;
+
+  template <int dim>
+  Recorders<dim>::Recorders(Problem<dim> &problem, const RunKind &kind)
+    : problem(problem)
+    , kind(kind)
+    , recorders(make_recorders(problem, kind))
+  {
+  }
+
+  template <int dim>
+  void Recorders<dim>::open(const double last_row)
+  {
+    const SceneParameters &parameters = problem.parameters;
+    const bool             is_series  = kind.has_motion || parameters.solver.load_steps > 1;
+    history = std::make_unique<History>(parameters.output_directory, problem.run.communicator, last_row);
+    fields  = std::make_unique<FieldOutput<dim>>(*problem.body.mesh,
+                                                *problem.body.nodes,
+                                                parameters.output_directory,
+                                                is_series ? OutputSteps::series : OutputSteps::single);
+    for (auto &recorder : recorders)
+      recorder->start(result);
+  }
+
+  template <int dim>
+  void Recorders<dim>::observe(const Step<dim> &step)
+  {
+    for (auto &recorder : recorders)
+      recorder->observe(step, {*history, result});
+  }
+
+  template <int dim>
+  void Recorders<dim>::record(const Step<dim> &step)
+  {
+    history->add("step", step.number);
+    history->add("time [s]", step.time);
+    for (auto &recorder : recorders)
+      recorder->record(step, {*history, result});
+    history->end_row();
+    last_time = step.time;
+  }
+
+  template <int dim>
+  void Recorders<dim>::write_fields(const Step<dim> &step)
+  {
+    const Timings::Scope scope(problem.run.timings, "output");
+    for (auto &recorder : recorders)
+      recorder->prepare_fields(step);
+    add_output_fields(problem, problem.parameters.field_names(), *fields);
+    frame_times.push_back(step.time);
+    fields->write(frame_times.size(), step.time);
+  }
+
+  template <int dim>
+  void Recorders<dim>::conclude(const Step<dim> &step)
+  {
+    for (auto &recorder : recorders)
+      recorder->conclude(step, {*history, result});
+  }
+
+  template <int dim>
+  void Recorders<dim>::write_last_fields()
+  {
+    const bool        is_new = frame_times.empty() || last_time > frame_times.back();
+    const State<dim> &state  = problem.state;
+    if (!is_new || state.displacement.size() != problem.body.nodes->size())
+      return;
+    const SceneParameters &parameters = problem.parameters;
+    fields->add_vector("displacement", state.displacement);
+    // Load steps end at 1: what failed stands behind them.
+    fields->write((kind.has_motion ? parameters.frames : parameters.solver.load_steps) + 1,
+                  kind.has_motion ? last_time : 2.);
+  }
+
+  template <int dim>
+  void Recorders<dim>::finish(const RunReport &report)
+  {
+    Run              &run    = problem.run;
+    const char *const name[] = {"done", "stopped", "failed"};
+    const bool        done   = report.status == RunStatus::done;
+    {
+      const Timings::Scope scope(run.timings, "output");
+      if (report.status == RunStatus::failed || (kind.has_motion && !done))
+        write_last_fields();
+      for (auto &recorder : recorders)
+        recorder->finish(result);
+      history->finish();
+    }
+    Json summary          = {{"status", name[static_cast<unsigned int>(report.status)]},
+                             {"command", run.context.command}};
+    summary["versions"]   = versions();
+    summary["parameters"] = run.context.parameters;
+    summary.update(describe_discretisation(problem));
+    summary.update(result);
+    summary["skipped"] = list_skipped(problem);
+    summary["skipped"].update(report.skipped);
+    const auto seconds        = run.timings.seconds();
+    summary["seconds"]        = seconds;
+    summary["memory_bytes"]   = peak_memory_bytes(run.communicator);
+    summary["operator_bytes"] = dealii::Utilities::MPI::sum(report.operator_bytes, run.communicator);
+    summary["ranks"]          = dealii::Utilities::MPI::n_mpi_processes(run.communicator);
+    write_summary(problem.parameters.output_directory + "/summary.json", summary, run.communicator);
+
+    for (const auto &recorder : recorders)
+      run.screen << recorder->describe(result, done);
+    run.screen << report.lines;
+    if (summary.contains("errors") && !summary["errors"].empty())
+      run.screen << '\n' << error_table(summary["errors"]);
+    run.screen << '\n'
+               << timing_table(seconds) << "\nresults in " << problem.parameters.output_directory
+               << std::endl;
+  }
+
+  template <int dim>
+  void Recorders<dim>::abandon() noexcept
+  {
+    try
+      {
+        if (history)
+          history->finish();
+      }
+    catch (const std::exception &)
+      {
+        // The error that ends the run is told; the rows of history.csv are on disk.
+      }
+  }
+
+  template <int dim>
+  void Recorders<dim>::save(Checkpoint &checkpoint) const
+  {
+    checkpoint.header["frames"] = frame_times;
+    checkpoint.header["series"] = history->all_series();
+    for (const auto &recorder : recorders)
+      checkpoint.header["recorders"][recorder->name()] = recorder->save(result, checkpoint);
+  }
+
+  namespace
+  {
+    /// JSON has null for what is no number, as attempts that failed may leave.
+    std::vector<double> to_numbers(const Json &list)
+    {
+      std::vector<double> result;
+      for (const Json &value : list)
+        result.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void Recorders<dim>::resume(const Checkpoint &checkpoint)
+  {
+    const Json &header = checkpoint.header;
+    for (auto &recorder : recorders)
+      recorder->resume(header.at("recorders").at(recorder->name()), checkpoint, result);
+    for (const auto &item : header.at("series").items())
+      history->add_series(item.key(), to_numbers(item.value()));
+    frame_times = header.at("frames").get<std::vector<double>>();
+    fields->resume(frame_times);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Recorders)
+} // namespace perideal
