@@ -128,7 +128,7 @@ namespace perideal
           unsigned int bad = 0;
           if (function.is_present())
             visit_faces(condition, faces, [&](const BoundaryFace<dim> &face) {
-              bad += std::isfinite(function.value(face.centre, time)) ? 0 : 1;
+              bad += function.is_finite(face.centre, time) ? 0 : 1;
             });
           if (dealii::Utilities::MPI::max(bad, communicator) > 0)
             throw InputError("this formula is not a finite number somewhere on its boundary")

@@ -106,7 +106,7 @@ namespace perideal
         const auto                   &function  = condition.displacement[entry.component].is_present() ?
                                                     condition.displacement[entry.component] :
                                                     condition.velocity[entry.component];
-        if (!std::isfinite(function.value(entry.point, time)))
+        if (!function.is_finite(entry.point, time))
           bad[dim * entry.condition + entry.component] = 1;
       }
     // The nodes may be on any rank; all ranks must agree on the complaint.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/parameters/space_time_function.h>
 
@@ -7,6 +8,7 @@
 
 #include <iostream>
 #include <regex>
+#include <sstream>
 
 namespace perideal
 {
@@ -33,6 +35,8 @@ namespace perideal
 
   template <int dim>
   SpaceTimeFunction<dim>::SpaceTimeFunction(const std::string &expression, const std::string &parameter)
+    : parameter(parameter)
+    , expression(expression)
   {
     if (expression.empty())
       return;
@@ -50,7 +54,7 @@ namespace perideal
         dealii::Point<dim> point;
         for (int d = 0; d < dim; ++d)
           point[d] = 0.1234 + 0.1 * d;
-        value(point, 0.567);
+        evaluate(point, 0.567);
       }
     catch (const dealii::ExceptionBase &error)
       {
@@ -63,6 +67,26 @@ namespace perideal
 
   template <int dim>
   double SpaceTimeFunction<dim>::value(const dealii::Point<dim> &point, const double time) const
+  {
+    const double result = evaluate(point, time);
+    if (perideal::is_finite(result))
+      return result;
+    std::ostringstream where;
+    where << "this formula is not a finite number at (" << point << ") m, t = " << time << " s";
+    throw InputError(where.str())
+      .parameter(parameter)
+      .given(expression)
+      .hint("look for poles, and for roots and logarithms of negative numbers");
+  }
+
+  template <int dim>
+  bool SpaceTimeFunction<dim>::is_finite(const dealii::Point<dim> &point, const double time) const
+  {
+    return perideal::is_finite(evaluate(point, time));
+  }
+
+  template <int dim>
+  double SpaceTimeFunction<dim>::evaluate(const dealii::Point<dim> &point, const double time) const
   {
     function->set_time(time);
     return function->value(point);

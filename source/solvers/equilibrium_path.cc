@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/solvers/equilibrium_path.h>
 
@@ -67,6 +68,10 @@ namespace perideal
         const double residual  = std::sqrt(norms.residual);
         result.residuals.push_back(reference > 0 ? residual / reference : (residual > 0 ? 1. : 0.));
         progress(result.iterations, result.residuals.back());
+        if (result.iterations == 0)
+          require_finite(reference + residual, "the residual before the first iteration");
+        if (!is_finite(reference + residual))
+          return result;
         const bool at_rest = is_in_place() && residual <= std::max(controls.tolerance * reference, rounding);
         const bool nearly  = is_in_place() && !judged && residual <= judge_tolerance * reference;
         if (controls.bonds_break && (at_rest || nearly))
@@ -88,7 +93,7 @@ namespace perideal
             result.converged = true;
             return result;
           }
-        if (since_break == controls.max_iterations || !std::isfinite(residual))
+        if (since_break == controls.max_iterations)
           return result;
         if (!iterate(external, result))
           return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/system/assembled_matrix.h>
 #include <perideal/operators/system/auxiliary_space.h>
@@ -16,6 +17,8 @@ namespace perideal
 {
   namespace
   {
+    constexpr const char *first_residual = "the residual before the first iteration";
+
     /// Watches the residual for history, progress and NaN.
     class Monitor
     {
@@ -31,7 +34,7 @@ namespace perideal
       operator()(const unsigned int iteration, const double residual, const Vector &)
       {
         if (iteration == 0)
-          first = residual > 0 ? residual : 1.;
+          first = require_finite(residual, first_residual) > 0 ? residual : 1.;
         result.residuals.push_back(residual / first);
         if (progress)
           progress(iteration, residual / first);
@@ -170,7 +173,7 @@ namespace perideal
                         const typename LinearSolver<dim>::Progress &) override
       {
         LinearSolve           result;
-        const double          first = residual_norm(solution, source);
+        const double          first = require_finite(residual_norm(solution, source), first_residual);
         dealii::SolverControl control(parameters.max_iterations, this->tolerance * first);
         result.residuals.push_back(1.);
         try

@@ -31,9 +31,16 @@ namespace perideal
     bool depends_on_time() const { return names_time; }
 
     /// Value at a point [m] and time [s]; the function must be present.
+    /// @throws InputError, maybe on one rank alone, naming parameter, point and time where it is not finite.
     double value(const dealii::Point<dim> &point, const double time) const;
 
+    /// Whether the value at a point [m] and time [s] is finite, for ranks that are to complain together.
+    bool is_finite(const dealii::Point<dim> &point, const double time) const;
+
   private:
+    double evaluate(const dealii::Point<dim> &point, const double time) const;
+
+    std::string                                  parameter, expression;
     std::shared_ptr<dealii::FunctionParser<dim>> function;
     bool                                         names_time = false;
   };
