@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
+#include <perideal/base/hdf5.h>
 #include <perideal/output/checkpoint.h>
+#include <perideal/output/checksum.h>
 #include <perideal/output/files.h>
 
-#include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
 
-#include <cstring>
 #include <fstream>
+#include <limits>
+#include <memory>
 #include <numeric>
 #include <unordered_map>
 
@@ -16,279 +17,444 @@ namespace perideal
   namespace
   {
     using Json = nlohmann::ordered_json;
-    using dealii::HDF5::File;
+    using hdf5::Unreadable;
 
-    /// This rank's lines of a table that all ranks fill together.
-    struct Lines
-    {
-      hsize_t first, size, total, width;
-    };
+    /// What files of another layout have another number of.
+    constexpr unsigned int format = 2;
 
-    /// HDF5 knows no empty tables: one line more than there are.
-    template <typename T>
-    void
-    write_table(const File &file, const std::string &name, const std::vector<T> &values, const Lines &lines)
+    constexpr const char *bonds_alone = "broken bonds";
+
+    std::string node_table(const std::string &name)
     {
-      auto table = file.create_dataset<T>(name, {lines.total + 1, lines.width});
-      if (lines.size == 0)
-        table.template write_none<T>();
-      else
-        table.write_hyperslab(values, {lines.first, 0}, {lines.size, lines.width});
+      return "node arrays/" + name;
     }
 
-    template <typename T>
-    std::vector<T> read_table(const File &file, const std::string &name, const Lines &lines)
+    std::string bond_table(const std::string &name, const std::string &part)
     {
-      auto table = file.open_dataset(name);
-      if (lines.size > 0)
-        return table.template read_hyperslab<std::vector<T>>({lines.first, 0}, {lines.size, lines.width});
-      table.template read_none<T>();
-      return {};
+      return "bond arrays/" + name + "/" + part;
     }
 
-    /// Shows all lines of a table to this rank, visit(line, values of the line), some at a time.
-    template <typename T, typename Visit>
-    void visit_lines(const File &file, const std::string &name, const hsize_t width, const Visit &visit)
+    std::string sum_table(const std::string &name)
     {
-      const hsize_t total = file.open_dataset(name).get_dimensions()[0] - 1, at_once = 1 << 20;
-      for (hsize_t first = 0; first < total; first += at_once)
-        {
-          const hsize_t size   = std::min(at_once, total - first);
-          const auto    values = read_table<T>(file, name, {first, size, total, width});
-          for (hsize_t line = 0; line < size; ++line)
-            visit(first + line, values.data() + line * width);
-        }
+      return "sums/" + name;
     }
 
-    /// As many lines of this rank as given, those of lower ranks before them.
-    Lines lines_of_ranks(const std::vector<hsize_t> &sizes, const hsize_t width, MPI_Comm communicator)
-    {
-      const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(communicator);
-      const hsize_t      first = std::accumulate(sizes.begin(), sizes.begin() + rank, hsize_t(0));
-      return {first, sizes[rank], std::accumulate(sizes.begin(), sizes.end(), hsize_t(0)), width};
-    }
-
-    Lines lines_of_ranks(const hsize_t size, const hsize_t width, MPI_Comm communicator)
-    {
-      return lines_of_ranks(dealii::Utilities::MPI::all_gather(communicator, size), width, communicator);
-    }
-
-    /// Values a node of a field. Collective.
-    hsize_t width_of(const std::vector<double> &values, const CheckpointNodes &nodes)
-    {
-      return dealii::Utilities::MPI::max(nodes.n_owned > 0 ? values.size() / nodes.n_owned : std::size_t(0),
-                                         nodes.communicator);
-    }
-
-    std::uint64_t join(const unsigned int *halves)
-    {
-      return (static_cast<std::uint64_t>(halves[0]) << 32) | halves[1];
-    }
-
-    /// Calls visit(name, values, lines) with the tables of a checkpoint.
+    /// Calls visit(name, unit, numbers a line, lines of this rank, values) with the tables of a checkpoint.
     template <typename Visit>
     void visit_tables(const Checkpoint &checkpoint, const CheckpointNodes &nodes, const Visit &visit)
     {
-      const MPI_Comm            communicator = nodes.communicator;
-      std::vector<unsigned int> keys;
-      for (LocalIndex i = 0; i < nodes.n_owned; ++i)
-        keys.insert(keys.end(),
-                    {static_cast<unsigned int>(nodes.key[i] >> 32), static_cast<unsigned int>(nodes.key[i])});
-      visit("nodes", keys, lines_of_ranks(nodes.n_owned, 2, communicator));
-      for (const auto &[name, values] : checkpoint.fields)
-        visit("fields/" + name, values, lines_of_ranks(nodes.n_owned, width_of(values, nodes), communicator));
-      visit("shares", checkpoint.shares, lines_of_ranks(1, checkpoint.shares.size(), communicator));
-      std::vector<unsigned int> pairs;
-      for (const BondEnds &bond : checkpoint.broken)
-        for (const LocalIndex i : {bond.near, bond.far})
-          pairs.insert(
-            pairs.end(),
-            {static_cast<unsigned int>(nodes.number[i] >> 32), static_cast<unsigned int>(nodes.number[i])});
-      visit("broken", pairs, lines_of_ranks(checkpoint.broken.size(), 4, communicator));
-    }
-
-    void write_file(const std::string &path, const Checkpoint &checkpoint, const CheckpointNodes &nodes)
-    {
-      File file(path, File::FileAccessMode::create, nodes.communicator);
-      file.create_group("fields");
-      visit_tables(checkpoint, nodes, [&](const auto &name, const auto &values, const Lines &lines) {
-        write_table(file, name, values, lines);
-      });
-      Json header      = checkpoint.header;
-      header["nodes"]  = nodes.n_global;
-      header["shares"] = checkpoint.shares.size();
-      header["broken by rank"] =
-        dealii::Utilities::MPI::all_gather(nodes.communicator, hsize_t(checkpoint.broken.size()));
-      for (const auto &[name, values] : checkpoint.fields)
-        header["fields"][name] = width_of(values, nodes);
-      const std::string               text = header.dump();
-      const std::vector<unsigned int> letters(text.begin(), text.end());
-      const bool is_first = dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0;
-      write_table(file, "header", letters, {0, is_first ? letters.size() : 0, letters.size(), 1});
-    }
-
-    /// HDF5 through deal.II does not tell of a full disk.
-    bool is_whole(const std::string &path, const Checkpoint &checkpoint, const CheckpointNodes &nodes)
-    {
-      unsigned int whole = H5Fis_hdf5(path.c_str()) > 0;
-      if (dealii::Utilities::MPI::min(whole, nodes.communicator) == 0)
-        return false;
-      const File file(path, File::FileAccessMode::open, nodes.communicator);
-      visit_tables(checkpoint, nodes, [&](const auto &name, const auto &values, const Lines &lines) {
-        using Values    = std::decay_t<decltype(values)>;
-        const auto read = read_table<typename Values::value_type>(file, name, lines);
-        whole           = whole && read.size() == values.size() &&
-                std::memcmp(read.data(), values.data(), values.size() * sizeof(values[0])) == 0;
-      });
-      return dealii::Utilities::MPI::min(whole, nodes.communicator) != 0;
-    }
-
-    /// What checkpoint.json names; empty: nothing. Collective.
-    std::string last_file(const std::string &directory, MPI_Comm communicator)
-    {
-      std::string name;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      visit("nodes",
+            "-",
+            1,
+            nodes.n_owned,
+            std::vector<std::uint64_t>(nodes.key.begin(), nodes.key.begin() + nodes.n_owned));
+      for (const auto &[name, array] : checkpoint.node_arrays)
         {
-          std::ifstream file(directory + "/checkpoint.json");
-          const auto    pointer = Json::parse(file, nullptr, false);
-          if (pointer.is_object() && pointer.contains("file"))
-            name = pointer["file"].get<std::string>();
+          // Where only the first nodes have values, zeros follow.
+          std::vector<double> values = array.values;
+          values.resize(std::size_t(array.width) * nodes.n_owned);
+          visit(node_table(name), array.unit, array.width, nodes.n_owned, values);
         }
-      return dealii::Utilities::MPI::broadcast(communicator, name, 0);
+      for (const auto &[name, array] : checkpoint.bond_arrays)
+        {
+          std::vector<std::uint64_t> ends;
+          for (const BondEnds &bond : array.bonds)
+            ends.insert(ends.end(), {nodes.key[bond.near], nodes.key[bond.far]});
+          visit(bond_table(name, "ends"), "-", 2, array.bonds.size(), ends);
+          visit(bond_table(name, "values"), array.unit, array.width, array.bonds.size(), array.values);
+        }
+      for (const auto &[name, values] : checkpoint.sums)
+        visit(sum_table(name), "-", values.size(), 1, values);
+    }
+
+    /// Writes all tables; returns what the header says of them, and the header itself. Collective.
+    std::string
+    write_file(const std::string &path, const Checkpoint &checkpoint, const CheckpointNodes &nodes)
+    {
+      const MPI_Comm     communicator = nodes.communicator;
+      const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+      hdf5::Writer       file(path, communicator);
+      Json               tables = Json::object();
+      visit_tables(checkpoint,
+                   nodes,
+                   [&](const std::string  &name,
+                       const auto         &unit,
+                       const std::uint64_t width,
+                       const std::uint64_t n,
+                       const auto         &values) {
+                     file.write(name, values, {n, width});
+                     tables[name] = {
+                       {"unit", unit},
+                       {"width", width},
+                       {"holds keys", std::is_integral_v<std::decay_t<decltype(values[0])>>},
+                       {"lines by rank", dealii::Utilities::MPI::all_gather(communicator, n)},
+                       {"checksums", dealii::Utilities::MPI::all_gather(communicator, checksum(values))}};
+                   });
+      const Json header = {
+        {"format", format}, {"nodes", nodes.n_global}, {"tables", tables}, {"content", checkpoint.header}};
+      const std::string       text = dealii::Utilities::MPI::broadcast(communicator, header.dump(), 0);
+      const std::vector<char> letters(text.begin(), rank == 0 ? text.end() : text.begin());
+      file.write("header", letters, {letters.size()});
+      file.close();
+      return text;
     }
 
     InputError no_restart(const std::string &problem, const std::string &file)
     {
-      return InputError(problem).parameter("Checkpoints/Restart").given(file);
+      return InputError(problem)
+        .parameter("Checkpoints/Restart")
+        .given(file)
+        .hint("set Checkpoints/Restart = false to start anew");
     }
 
-    Json read_header(const File &file)
+    /// Lets every rank read by itself; returns the first complaint of a rank, to all. Collective.
+    template <typename Read>
+    std::string first_complaint(MPI_Comm communicator, const Read &read)
     {
-      std::string text;
-      visit_lines<unsigned int>(
-        file, "header", 1, [&](const hsize_t, const unsigned int *letter) { text += char(*letter); });
-      return Json::parse(text, nullptr, false);
+      std::string complaint;
+      try
+        {
+          read();
+        }
+      catch (const Unreadable &error)
+        {
+          complaint = error.what();
+        }
+      catch (const Json::exception &)
+        {
+          complaint = "the checkpoint was written by another version of the program";
+        }
+      for (const std::string &of_rank : dealii::Utilities::MPI::all_gather(communicator, complaint))
+        if (!of_rank.empty())
+          return of_rank;
+      return "";
     }
 
-    /// Local nodes by their number in the file.
-    std::unordered_map<GlobalIndex, LocalIndex> find_nodes(const File &file, const CheckpointNodes &nodes)
+    /// What checkpoint.json says.
+    struct Pointer
     {
-      std::unordered_map<std::uint64_t, LocalIndex> with_key;
-      for (LocalIndex i = 0; i < nodes.key.size(); ++i)
-        with_key[nodes.key[i]] = i;
-      std::unordered_map<GlobalIndex, LocalIndex> result;
-      visit_lines<unsigned int>(file, "nodes", 2, [&](const hsize_t line, const unsigned int *halves) {
-        const auto found = with_key.find(join(halves));
-        if (found != with_key.end())
-          result[line] = found->second;
-      });
+      std::string   file;
+      std::uint32_t checksum = 0;
+      /// Of the reading; empty: none.
+      std::string problem;
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &file &checksum &problem;
+      }
+    };
+
+    /// Collective.
+    Pointer read_pointer(const std::string &directory, MPI_Comm communicator)
+    {
+      Pointer result;
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        {
+          std::ifstream file(directory + "/checkpoint.json");
+          const Json    pointer = Json::parse(file, nullptr, false);
+          const auto    is      = [&](const char *name, const auto test) {
+            return pointer.is_object() && pointer.contains(name) && test(pointer[name]);
+          };
+          if (!file.is_open())
+            result.problem = "there is no checkpoint to go on from";
+          else if (is("file", [](const Json &value) { return value.is_string(); }) &&
+                   is("checksum", [](const Json &value) { return value.is_number_unsigned(); }))
+            {
+              result.file     = pointer["file"].get<std::string>();
+              result.checksum = pointer["checksum"].get<std::uint32_t>();
+            }
+          else
+            result.problem =
+              "the checkpoint cannot be read: checkpoint.json is damaged, or of another version "
+              "of the program";
+        }
+      return dealii::Utilities::MPI::broadcast(communicator, result, 0);
+    }
+
+    /// Where a table's lines of each rank begin, and where the last end.
+    std::vector<std::uint64_t> begin_of_ranks(const Json &table)
+    {
+      std::vector<std::uint64_t> result(1, 0);
+      for (const Json &lines : table.at("lines by rank"))
+        result.push_back(result.back() + lines.get<std::uint64_t>());
       return result;
     }
 
-    /// Fields, shares and broken bonds that another number of ranks wrote.
-    void read_as_another(const File                                        &file,
-                         const CheckpointNodes                             &nodes,
-                         const std::unordered_map<GlobalIndex, LocalIndex> &local,
-                         Checkpoint                                        &checkpoint)
+    /// A checkpoint as it is read by one rank.
+    class File
     {
-      for (const auto &field : checkpoint.header.at("fields").items())
-        {
-          const hsize_t        width  = field.value().get<hsize_t>();
-          std::vector<double> &values = checkpoint.fields[field.key()];
-          values.resize(width * nodes.n_owned);
-          visit_lines<double>(
-            file, "fields/" + field.key(), width, [&](const hsize_t line, const double *value) {
-              const auto found = local.find(line);
-              if (found != local.end() && found->second < nodes.n_owned)
-                std::copy_n(value, width, values.begin() + width * found->second);
-            });
-        }
-      const hsize_t width = checkpoint.header.at("shares").get<hsize_t>();
-      checkpoint.shares.assign(width, 0.);
-      const bool is_first = dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0;
-      visit_lines<double>(file, "shares", width, [&](const hsize_t, const double *share) {
-        for (hsize_t k = 0; k < width && is_first; ++k)
-          checkpoint.shares[k] += share[k];
+    public:
+      /// @throws Unreadable when the header is not the one of that checksum.
+      File(const std::string &path, const std::uint32_t header_checksum)
+        : path(path)
+        , file(path)
+      {
+        const std::vector<char> text = file.read<char>("header");
+        if (checksum(text) != header_checksum)
+          throw damaged("header");
+        header = Json::parse(text);
+        if (header.at("format") != format)
+          throw Unreadable("the checkpoint was written by another version of the program");
+      }
+
+      /// Looks at this rank's share of the tables. @throws Unreadable
+      void verify(const unsigned int rank, const unsigned int n_ranks) const
+      {
+        for (const auto &table : tables().items())
+          if (table.value().at("holds keys").get<bool>())
+            verify<std::uint64_t>(table.key(), rank, n_ranks);
+          else
+            verify<double>(table.key(), rank, n_ranks);
+      }
+
+      const Json &tables() const { return header.at("tables"); }
+
+      /// Calls visit(line, values of the line) with the lines that a rank wrote, or with all.
+      template <typename Number, typename Visit>
+      void visit_lines(const std::string &name, const unsigned int rank, const Visit &visit) const
+      {
+        const auto          begin = begin_of_ranks(tables().at(name));
+        const std::uint64_t first = rank == all ? 0 : begin.at(rank), at_once = 1 << 20;
+        const std::uint64_t last = rank == all ? begin.back() : begin.at(rank + 1);
+        for (std::uint64_t at = first; at < last; at += at_once)
+          {
+            const std::uint64_t n      = std::min(at_once, last - at);
+            const auto          values = file.read<Number>(name, at, n);
+            for (std::uint64_t line = 0; line < n; ++line)
+              visit(at + line, values.data() + line * (values.size() / n));
+          }
+      }
+
+      static constexpr unsigned int all = std::numeric_limits<unsigned int>::max();
+
+      /// {"nodes": of all ranks, "content": Checkpoint::header, "tables": what their lines are}
+      Json header;
+
+    private:
+      Unreadable damaged(const std::string &table) const
+      {
+        return Unreadable("the checkpoint cannot be read: '" + table + "' of '" + path + "' is damaged");
+      }
+
+      template <typename Number>
+      void verify(const std::string &name, const unsigned int rank, const unsigned int n_ranks) const
+      {
+        const auto begin = begin_of_ranks(tables().at(name));
+        const auto shape = file.shape(name);
+        if (shape != std::vector<std::uint64_t>{begin.back(), tables().at(name).at("width")})
+          throw damaged(name);
+        for (unsigned int k = rank; k + 1 < begin.size(); k += n_ranks)
+          if (checksum(file.read<Number>(name, begin[k], begin[k + 1] - begin[k])) !=
+              tables().at(name).at("checksums").at(k).get<std::uint32_t>())
+            throw damaged(name);
+      }
+
+      const std::string  path;
+      const hdf5::Reader file;
+    };
+
+    /// Whether as many ranks with the same nodes wrote the file: the answer for this rank.
+    bool is_as_written(const File &file, const CheckpointNodes &nodes)
+    {
+      const auto         begin = begin_of_ranks(file.tables().at("nodes"));
+      const unsigned int rank  = dealii::Utilities::MPI::this_mpi_process(nodes.communicator);
+      if (begin.size() != dealii::Utilities::MPI::n_mpi_processes(nodes.communicator) + 1 ||
+          begin[rank + 1] - begin[rank] != nodes.n_owned)
+        return false;
+      bool same = true;
+      file.visit_lines<std::uint64_t>("nodes", rank, [&](const std::uint64_t line, const std::uint64_t *key) {
+        same = same && *key == nodes.key[line - begin[rank]];
       });
-      visit_lines<unsigned int>(file, "broken", 4, [&](const hsize_t, const unsigned int *halves) {
-        const auto a = local.find(join(halves)), b = local.find(join(halves + 2));
-        if (a != local.end() && b != local.end() && std::min(a->second, b->second) < nodes.n_owned)
-          checkpoint.broken.push_back({std::min(a->second, b->second), std::max(a->second, b->second)});
-      });
+      return same;
     }
 
-    /// The same by as many ranks with the same nodes.
-    void read_as_written(const File &file, const CheckpointNodes &nodes, Checkpoint &checkpoint)
+    using NodesByKey = std::unordered_map<std::uint64_t, LocalIndex>;
+
+    void read_nodes(const File            &file,
+                    const CheckpointNodes &nodes,
+                    const NodesByKey      &local,
+                    const unsigned int     rank,
+                    Checkpoint            &checkpoint)
     {
-      const MPI_Comm communicator = nodes.communicator;
-      for (const auto &field : checkpoint.header.at("fields").items())
-        checkpoint.fields[field.key()] =
-          read_table<double>(file,
-                             "fields/" + field.key(),
-                             lines_of_ranks(nodes.n_owned, field.value().get<hsize_t>(), communicator));
-      checkpoint.shares = read_table<double>(
-        file, "shares", lines_of_ranks(1, checkpoint.header.at("shares").get<hsize_t>(), communicator));
-      const auto sizes  = checkpoint.header.at("broken by rank").get<std::vector<hsize_t>>();
-      const auto halves = read_table<unsigned int>(file, "broken", lines_of_ranks(sizes, 4, communicator));
-      std::unordered_map<GlobalIndex, LocalIndex> local;
-      for (LocalIndex i = 0; i < nodes.number.size(); ++i)
-        local[nodes.number[i]] = i;
-      for (std::size_t k = 0; k < halves.size(); k += 4)
-        checkpoint.broken.push_back(
-          {local.at(join(halves.data() + k)), local.at(join(halves.data() + k + 2))});
+      std::unordered_map<std::uint64_t, LocalIndex> node_of_line;
+      GlobalIndex                                   n_found = 0;
+      file.visit_lines<std::uint64_t>("nodes", rank, [&](const std::uint64_t line, const std::uint64_t *key) {
+        const auto found = local.find(*key);
+        n_found += found != local.end();
+        if (found != local.end() && found->second < nodes.n_owned)
+          node_of_line[line] = found->second;
+      });
+      if (file.header.at("nodes") != nodes.n_global || (rank == File::all && n_found != nodes.key.size()))
+        throw Unreadable("the checkpoint belongs to another mesh");
+      for (auto &[name, array] : checkpoint.node_arrays)
+        {
+          array.values.resize(std::size_t(array.width) * nodes.n_owned);
+          file.visit_lines<double>(
+            node_table(name), rank, [&](const std::uint64_t line, const double *value) {
+              const auto found = node_of_line.find(line);
+              if (found != node_of_line.end())
+                std::copy_n(
+                  value, array.width, array.values.begin() + std::size_t(array.width) * found->second);
+            });
+        }
+    }
+
+    void read_bonds(const File            &file,
+                    const CheckpointNodes &nodes,
+                    const NodesByKey      &local,
+                    const unsigned int     rank,
+                    Checkpoint            &checkpoint)
+    {
+      for (auto &[name, array] : checkpoint.bond_arrays)
+        {
+          std::vector<bool> is_here;
+          file.visit_lines<std::uint64_t>(
+            bond_table(name, "ends"), rank, [&](const std::uint64_t, const std::uint64_t *key) {
+              const auto a = local.find(key[0]), b = local.find(key[1]);
+              is_here.push_back(a != local.end() && b != local.end() &&
+                                std::min(a->second, b->second) < nodes.n_owned);
+              if (is_here.back())
+                array.bonds.push_back({std::min(a->second, b->second), std::max(a->second, b->second)});
+            });
+          if (array.width == 0)
+            continue;
+          auto here = is_here.begin();
+          file.visit_lines<double>(
+            bond_table(name, "values"), rank, [&](const std::uint64_t, const double *value) {
+              if (*here++)
+                array.values.insert(array.values.end(), value, value + array.width);
+            });
+        }
+    }
+
+    /// @param rank File::all: the first rank takes the sums.
+    void read_sums(const File &file, const bool is_first, const unsigned int rank, Checkpoint &checkpoint)
+    {
+      for (auto &[name, values] : checkpoint.sums)
+        {
+          bool       is_new = true;
+          const auto width  = file.tables().at(sum_table(name)).at("width").get<std::size_t>();
+          auto      &sum    = values;
+          sum.assign(width, 0.);
+          if (rank != File::all || is_first)
+            file.visit_lines<double>(sum_table(name), rank, [&](const std::uint64_t, const double *share) {
+              for (std::size_t k = 0; k < width; ++k)
+                sum[k] = is_new ? share[k] : sum[k] + share[k];
+              is_new = false;
+            });
+        }
+    }
+
+    /// Makes the arrays that a file holds, without values.
+    void name_arrays(const File &file, Checkpoint &checkpoint)
+    {
+      checkpoint.header = file.header.at("content");
+      for (const auto &table : file.tables().items())
+        {
+          const std::string &key   = table.key();
+          const auto         slash = key.find('/'), last = key.rfind('/');
+          const std::string  kind = key.substr(0, slash), name = key.substr(slash + 1);
+          const auto         unit  = table.value().at("unit").get<std::string>();
+          const auto         width = table.value().at("width").get<unsigned int>();
+          if (kind == "node arrays")
+            checkpoint.node_arrays[name] = {unit, width, {}};
+          else if (kind == "sums")
+            checkpoint.sums[name];
+          else if (kind == "bond arrays" && key.substr(last) == "/values")
+            checkpoint.bond_arrays[key.substr(slash + 1, last - slash - 1)] = {unit, width, {}, {}};
+        }
     }
   } // namespace
+
+  InputError Checkpoint::lacks(const std::string &name)
+  {
+    return InputError("the checkpoint has no '" + name + "' that this scene could go on with")
+      .parameter("Checkpoints/Restart")
+      .hint(
+        "it was written by another version of the program: set Checkpoints/Restart = false to start anew");
+  }
 
   void
   write_checkpoint(const std::string &directory, const Checkpoint &checkpoint, const CheckpointNodes &nodes)
   {
-    const bool        last_is_0 = last_file(directory, nodes.communicator) == "checkpoint_0.h5";
-    const std::string name      = last_is_0 ? "checkpoint_1.h5" : "checkpoint_0.h5";
-    const std::string path      = directory + "/" + name;
-    write_file(path, checkpoint, nodes);
-    if (!is_whole(path, checkpoint, nodes))
+    const MPI_Comm    communicator = nodes.communicator;
+    const bool        last_is_0    = read_pointer(directory, communicator).file == "checkpoint_0.h5";
+    const std::string name         = last_is_0 ? "checkpoint_1.h5" : "checkpoint_0.h5";
+    const std::string path         = directory + "/" + name;
+    Checkpoint        whole        = checkpoint;
+    for (const auto &[field, values] : checkpoint.fields)
+      whole.node_arrays[field] = {
+        "-",
+        dealii::Utilities::MPI::max(nodes.n_owned > 0 ? unsigned(values.size() / nodes.n_owned) : 0u,
+                                    communicator),
+        values};
+    whole.bond_arrays[bonds_alone] = {"-", 0, checkpoint.broken, {}};
+    whole.sums["shares"]           = checkpoint.shares;
+    const std::uint32_t sum        = checksum(write_file(path, whole, nodes));
+    const std::string   complaint  = first_complaint(communicator, [&] {
+      File(path, sum).verify(dealii::Utilities::MPI::this_mpi_process(communicator),
+                             dealii::Utilities::MPI::n_mpi_processes(communicator));
+    });
+    if (!complaint.empty())
       throw ComputationError("cannot write '" + path + "': is the disk full?");
-    if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0)
-      replace_file(
-        directory + "/checkpoint.json",
-        Json{{"file", name}, {"step", checkpoint.header.at("step")}, {"time", checkpoint.header.at("time")}}
-          .dump(1));
+    std::string problem;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+        {
+          replace_file(directory + "/checkpoint.json",
+                       Json{{"file", name},
+                            {"step", checkpoint.header.at("step")},
+                            {"time", checkpoint.header.at("time")},
+                            {"checksum", sum}}
+                         .dump(1));
+        }
+      catch (const ComputationError &error)
+        {
+          problem = error.what();
+        }
+    problem = dealii::Utilities::MPI::broadcast(communicator, problem, 0);
+    if (!problem.empty())
+      throw ComputationError(problem);
   }
 
   Checkpoint read_checkpoint(const std::string &directory, const CheckpointNodes &nodes)
   {
-    const MPI_Comm    communicator = nodes.communicator;
-    const std::string name         = last_file(directory, communicator);
-    if (name.empty())
-      throw no_restart("there is no checkpoint to go on from", directory + "/checkpoint.json")
-        .hint("set Checkpoints/Restart = false to start anew");
-    const std::string  path  = directory + "/" + name;
-    const unsigned int whole = H5Fis_hdf5(path.c_str()) > 0;
-    if (dealii::Utilities::MPI::min(whole, communicator) == 0)
-      throw no_restart("the checkpoint cannot be read", path);
-    const File file(path, File::FileAccessMode::open, communicator);
+    const MPI_Comm     communicator = nodes.communicator;
+    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const Pointer      pointer      = read_pointer(directory, communicator);
+    if (!pointer.problem.empty())
+      throw no_restart(pointer.problem, directory + "/checkpoint.json");
+    const std::string path = directory + "/" + pointer.file;
 
-    Checkpoint result;
-    result.header = read_header(file);
-    if (!result.header.is_object())
-      throw no_restart("the checkpoint cannot be read", path);
-    const auto   local = find_nodes(file, nodes);
-    unsigned int is_there =
-      result.header.value("nodes", GlobalIndex(0)) == nodes.n_global && local.size() == nodes.key.size();
-    if (dealii::Utilities::MPI::min(is_there, communicator) == 0)
-      throw no_restart("the checkpoint belongs to another mesh", path);
-
-    unsigned int same =
-      result.header.at("broken by rank").size() == dealii::Utilities::MPI::n_mpi_processes(communicator);
-    for (LocalIndex i = 0; i < nodes.n_owned; ++i)
-      {
-        const auto found = local.find(nodes.number[i]);
-        same             = same && found != local.end() && found->second == i;
-      }
-    if (dealii::Utilities::MPI::min(same, communicator) != 0)
-      read_as_written(file, nodes, result);
-    else
-      read_as_another(file, nodes, local, result);
+    const auto read_together = [&](const auto &read) {
+      const std::string complaint = first_complaint(communicator, read);
+      if (!complaint.empty())
+        throw no_restart(complaint, path);
+    };
+    std::unique_ptr<File> file;
+    unsigned int          same = 0;
+    read_together([&] {
+      file = std::make_unique<File>(path, pointer.checksum);
+      file->verify(rank, dealii::Utilities::MPI::n_mpi_processes(communicator));
+      same = is_as_written(*file, nodes);
+    });
+    const bool         as_written = dealii::Utilities::MPI::min(same, communicator) != 0;
+    const unsigned int of_rank    = as_written ? rank : File::all;
+    Checkpoint         result;
+    read_together([&] {
+      NodesByKey local;
+      for (LocalIndex i = 0; i < nodes.key.size(); ++i)
+        local[nodes.key[i]] = i;
+      name_arrays(*file, result);
+      read_nodes(*file, nodes, local, of_rank, result);
+      read_bonds(*file, nodes, local, of_rank, result);
+      read_sums(*file, rank == 0, of_rank, result);
+    });
+    for (const auto &[name, array] : result.node_arrays)
+      result.fields[name] = array.values;
+    result.broken = result.bond_arrays.at(bonds_alone).bonds;
+    result.shares = result.sums.at("shares");
     return result;
   }
 } // namespace perideal

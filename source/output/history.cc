@@ -1,54 +1,93 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/hdf5.h>
 #include <perideal/output/files.h>
 #include <perideal/output/history.h>
 
-#include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <iostream>
 
 namespace perideal
 {
-  History::History(const std::string &directory, MPI_Comm communicator, const double last_step)
+  namespace
+  {
+    /// The first column that is another one.
+    std::string first_difference(const std::vector<std::string> &there, const std::vector<std::string> &here)
+    {
+      const auto [a, b] = std::mismatch(there.begin(), there.end(), here.begin(), here.end());
+      const auto name   = [](const auto at, const auto end) {
+        return at == end ? std::string("no more") : "'" + *at + "'";
+      };
+      return name(a, there.end()) + " there, " + name(b, here.end()) + " here";
+    }
+  } // namespace
+
+  History::History(const std::string                 &directory,
+                   MPI_Comm                           communicator,
+                   const double                       last_step,
+                   const std::optional<std::uint32_t> checksum)
     : directory(directory)
+    , communicator(communicator)
     , is_writer(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
+    using dealii::Utilities::MPI::broadcast;
     create_output_directory(directory, communicator);
-    if (is_writer && last_step >= 0)
-      read_rows(last_step);
-    column_names = dealii::Utilities::MPI::broadcast(communicator, column_names, 0);
+    const std::string problem =
+      broadcast(communicator, is_writer && last_step >= 0 ? read_rows(last_step, checksum) : "", 0);
+    if (!problem.empty())
+      refuse(problem);
+    warning_text = broadcast(communicator, warning_text, 0);
+    column_names = broadcast(communicator, column_names, 0);
+    goes_on      = !column_names.empty();
     columns.resize(column_names.size());
     if (is_writer)
-      csv.open(directory + "/history.csv", columns.empty() ? std::ios::out : std::ios::app);
+      csv.open(directory + "/history.csv", goes_on ? std::ios::app : std::ios::out);
   }
 
-  void History::read_rows(const double last_step)
+  void History::refuse(const std::string &problem) const
   {
-    const std::string        path = directory + "/history.csv";
-    std::ifstream            file(path);
-    std::string              line;
-    std::vector<std::string> names;
-    if (std::getline(file, line))
-      names = read_csv_header(line);
+    throw InputError(problem)
+      .parameter("Checkpoints/Restart")
+      .given(directory + "/history.csv")
+      .hint("put back the history.csv of the earlier run, or move it away: a new one is begun");
+  }
+
+  void History::keep_row(const std::vector<double> &row)
+  {
+    for (std::size_t column = 0; column < columns.size(); ++column)
+      columns[column].push_back(row[column]);
+    rows_crc.process_bytes(row.data(), row.size() * sizeof(double));
+  }
+
+  std::string History::read_rows(const double last_step, const std::optional<std::uint32_t> checksum)
+  {
+    const std::string path = directory + "/history.csv";
+    std::ifstream     file(path);
+    std::string       line;
+    if (!std::getline(file, line))
+      {
+        warning_text = "there is no history.csv of the steps before the checkpoint: a new one begins here";
+        return "";
+      }
+    column_names = read_csv_header(line);
+    columns.resize(column_names.size());
     std::vector<std::vector<double>> rows;
     while (std::getline(file, line))
       {
         const std::vector<double> row = read_csv_row(line);
         // The last line may be a part.
-        if (row.size() == names.size() && !row.empty() && row.front() <= last_step)
-          rows.push_back(row);
+        if (row.size() == column_names.size() && row.front() <= last_step)
+          {
+            keep_row(row);
+            rows.push_back(row);
+          }
       }
     file.close();
-    if (rows.empty())
-      return;
-    column_names = names;
-    columns.resize(names.size());
-    for (const auto &row : rows)
-      for (std::size_t column = 0; column < row.size(); ++column)
-        columns[column].push_back(row[column]);
-    write_csv(path, names, rows);
+    if (checksum && rows_crc.checksum() != *checksum)
+      return "the rows of history.csv are not those of the run that wrote the checkpoint";
+    write_csv(path, column_names, rows);
+    return "";
   }
 
   History::~History()
@@ -57,10 +96,14 @@ namespace perideal
       {
         finish();
       }
-    catch (const std::exception &error)
+    catch (...)
       {
-        std::cerr << "history.h5 could not be written: " << error.what() << std::endl;
       }
+  }
+
+  std::uint32_t History::checksum() const
+  {
+    return dealii::Utilities::MPI::broadcast(communicator, rows_crc.checksum(), 0);
   }
 
   void History::add(const std::string &name, const double value)
@@ -79,11 +122,13 @@ namespace perideal
         if (is_writer)
           write_csv_header(csv, column_names);
       }
+    if (goes_on && row_names != column_names)
+      refuse("history.csv has other columns than this run: " + first_difference(column_names, row_names));
     AssertThrow(row_names == column_names, dealii::ExcMessage("a row of the history has other columns"));
+    goes_on = false;
     if (is_writer)
       {
-        for (std::size_t column = 0; column < columns.size(); ++column)
-          columns[column].push_back(row_values[column]);
+        keep_row(row_values);
         write_csv_row(csv, row_values);
         csv.flush();
         if (!csv)
@@ -108,14 +153,15 @@ namespace perideal
       return;
     csv.close();
 
-    const dealii::HDF5::File file(directory + "/history.h5", dealii::HDF5::File::FileAccessMode::create);
-    const auto               write = [&](std::string name, const std::vector<double> &values) {
+    hdf5::Writer file(directory + "/history.h5", MPI_COMM_SELF);
+    const auto   write = [&](std::string name, const std::vector<double> &values) {
       std::replace(name.begin(), name.end(), '/', '|');
-      file.write_dataset(name, values);
+      file.write(name, values, {values.size()});
     };
     for (std::size_t column = 0; column < columns.size(); ++column)
       write(column_names[column], columns[column]);
     for (const auto &[name, values] : series)
       write(name, values);
+    file.close();
   }
 } // namespace perideal

@@ -106,7 +106,7 @@ def deviations(case, status, out, err, folder, seconds):
         found.append(f"exit status {status}, expected {expected}")
     text = err if expected != 0 else out + err
     found += [f"does not say {word!r}" for word in case["says"] if word not in text]
-    if expected != 0:
+    if expected == 1:
         left = sorted(str(path.relative_to(folder)) for path in (folder / "output").rglob("*") if path.is_file())
         if left:
             found.append(f"left files behind: {', '.join(left)}")

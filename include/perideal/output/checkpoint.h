@@ -2,6 +2,7 @@
 #ifndef perideal_output_checkpoint_h
 #define perideal_output_checkpoint_h
 
+#include <perideal/base/exceptions.h>
 #include <perideal/neighbourhood/bond_list.h>
 
 #include <nlohmann/json.hpp>
@@ -13,18 +14,56 @@
 
 namespace perideal
 {
+  /// As many numbers for each owned node, one node after another.
+  struct NodeArray
+  {
+    std::string         unit;
+    unsigned int        width = 1;
+    std::vector<double> values;
+  };
+
+  /// Bonds of this rank in an order of their own, and as many numbers for each; none where the bonds say all.
+  struct BondArray
+  {
+    std::string           unit;
+    unsigned int          width = 0;
+    std::vector<BondEnds> bonds;
+    std::vector<double>   values;
+  };
+
   /// What a stopped run needs to go on.
   struct Checkpoint
   {
     /// Numbers and texts that all ranks agree on.
-    nlohmann::ordered_json header;
-    /// Values of the owned nodes, as many for each.
+    nlohmann::ordered_json           header;
+    std::map<std::string, NodeArray> node_arrays;
+    /// Bonds that the partition cuts stand on both ranks; where another number of ranks goes on, maybe twice.
+    std::map<std::string, BondArray> bond_arrays;
+    /// Numbers of this rank whose sums over the ranks count.
+    std::map<std::string, std::vector<double>> sums;
+
+    /// An entry of the header.
+    /// @throws InputError when there is none, or one of another type.
+    template <typename T>
+    T get(const std::string &name) const
+    {
+      try
+        {
+          return header.at(name).get<T>();
+        }
+      catch (const nlohmann::ordered_json::exception &)
+        {
+          throw lacks(name);
+        }
+    }
+
+    /// What is thrown where a checkpoint lacks something that the scene needs.
+    static InputError lacks(const std::string &name);
+
+    // The same by other names.
     std::map<std::string, std::vector<double>> fields;
-    /// Numbers of this rank whose sum over the ranks counts.
-    std::vector<double> shares;
-    /// Bonds of this rank that broke, in this order; those that the partition cuts may appear twice
-    /// where another number of ranks goes on.
-    std::vector<BondEnds> broken;
+    std::vector<double>                        shares;
+    std::vector<BondEnds>                      broken;
 
     /// A field, from and into a vector of as many numbers.
     template <typename Vector>
@@ -44,7 +83,7 @@ namespace perideal
   {
     /// cell_keys() of local nodes.
     std::vector<std::uint64_t> key;
-    /// Global numbers of local nodes; those of the owned ones are contiguous.
+    /// Global numbers of local nodes.
     std::vector<GlobalIndex> number;
     LocalIndex               n_owned;
     GlobalIndex              n_global;
@@ -53,8 +92,9 @@ namespace perideal
 
   /**
    * Writes the older of checkpoint_0.h5 and checkpoint_1.h5 anew, reads it back, and then names it in
-   * checkpoint.json: whenever the program dies, what checkpoint.json names is whole. Collective.
-   * @throws ComputationError when the file cannot be written.
+   * checkpoint.json, with the checksum of its header, which has those of its tables: whenever the program
+   * dies, what checkpoint.json names is whole. Bonds are told by the keys of their ends. Collective.
+   * @throws ComputationError on all ranks when the file cannot be written.
    */
   void
   write_checkpoint(const std::string &directory, const Checkpoint &checkpoint, const CheckpointNodes &nodes);
@@ -62,7 +102,8 @@ namespace perideal
   /**
    * Reads what checkpoint.json names, written by any number of ranks. By the same number, all comes back
    * bit by bit. Collective.
-   * @throws InputError when there is none, it is damaged, or it belongs to another body.
+   * @throws InputError on all ranks when there is none, it is damaged (the message names file and table), or
+   * it belongs to another body.
    */
   Checkpoint read_checkpoint(const std::string &directory, const CheckpointNodes &nodes);
 } // namespace perideal

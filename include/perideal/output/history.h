@@ -2,9 +2,13 @@
 #ifndef perideal_output_history_h
 #define perideal_output_history_h
 
+#include <boost/crc.hpp>
+#include <mpi.h>
+
+#include <cstdint>
 #include <fstream>
 #include <map>
-#include <mpi.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +27,15 @@ namespace perideal
   public:
     /// Begins a new history.csv, or goes on with the one there. Collective.
     /// @param last_step of the rows to keep, by their first column; negative: a new history
-    /// @throws InputError when the directory cannot be written.
-    History(const std::string &directory, MPI_Comm communicator, const double last_step = -1);
+    /// @param checksum of these rows, where it is known
+    /// @throws InputError on all ranks when the directory cannot be written, or when the rows are others.
+    History(const std::string                 &directory,
+            MPI_Comm                           communicator,
+            const double                       last_step = -1,
+            const std::optional<std::uint32_t> checksum  = {});
 
-    /// Calls finish(), so that what was computed stays when an error ends the run.
+    /// Tries to finish(), so that what was computed stays when an error ends the run; without a word where it
+    /// cannot, since that error is told and the rows are in history.csv.
     ~History();
 
     History(const History &)            = delete;
@@ -37,7 +46,8 @@ namespace perideal
 
     /// Completes the row. The first row fixes names and order of the columns;
     /// later rows must repeat them.
-    /// @throws ComputationError when the row cannot be written.
+    /// @throws ComputationError on the first rank when the row cannot be written; InputError on all when the
+    /// earlier rows, with which the history goes on, have other columns.
     void end_row();
 
     /// An array besides the columns, for history.h5 alone (the residuals of a
@@ -47,17 +57,30 @@ namespace perideal
     /// All arrays so far, by name, on every rank.
     const std::map<std::string, std::vector<double>> &all_series() const { return series; }
 
+    /// That of the rows so far, for those who go on from here. Collective.
+    std::uint32_t checksum() const;
+
+    /// What the user should know of the history that goes on; empty: nothing.
+    const std::string &warning() const { return warning_text; }
+
     /// Writes history.h5; nothing can be added afterwards. A '/' in a name, which
     /// HDF5 keeps for groups, is written as '|'.
+    /// @throws ComputationError on the first rank when it cannot be written.
     void finish();
 
   private:
-    /// Rank 0: takes the rows of the history.csv there.
-    void read_rows(const double last_step);
+    /// Rank 0: takes the rows of the history.csv there; returns what is wrong with them.
+    std::string read_rows(const double last_step, const std::optional<std::uint32_t> checksum);
+    void        keep_row(const std::vector<double> &row);
+    /// @throws InputError
+    void refuse(const std::string &problem) const;
 
-    std::string   directory;
-    bool          is_writer;
-    bool          is_finished = false;
+    std::string directory;
+    MPI_Comm    communicator;
+    bool        is_writer;
+    bool        is_finished = false;
+    /// Whether the columns are those of an earlier run.
+    bool          goes_on = false;
     std::ofstream csv;
 
     std::vector<std::string>                   row_names;
@@ -65,6 +88,10 @@ namespace perideal
     std::vector<std::string>                   column_names;
     std::vector<std::vector<double>>           columns;
     std::map<std::string, std::vector<double>> series;
+
+    /// Of the rows, on rank 0.
+    boost::crc_32_type rows_crc;
+    std::string        warning_text;
   };
 } // namespace perideal
 

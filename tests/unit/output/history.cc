@@ -2,9 +2,8 @@
 #include "output_test.h"
 
 #include <perideal/base/exceptions.h>
+#include <perideal/base/hdf5.h>
 #include <perideal/output/history.h>
-
-#include <deal.II/base/hdf5.h>
 
 #include <gtest/gtest.h>
 
@@ -21,10 +20,7 @@ namespace
   {
     std::vector<double> values;
     if (is_first_rank())
-      {
-        const dealii::HDF5::File file(path, dealii::HDF5::File::FileAccessMode::open);
-        values = file.open_dataset(name).read<std::vector<double>>();
-      }
+      values = hdf5::Reader(path).read<double>(name);
     return dealii::Utilities::MPI::broadcast(MPI_COMM_WORLD, values, 0);
   }
 
@@ -92,4 +88,89 @@ TEST(History, RefusesARowWithOtherColumns)
 TEST(History, UnwritableDirectoryIsAnInputError)
 {
   EXPECT_THROW(History("/dev/null/below", MPI_COMM_WORLD), InputError);
+}
+
+TEST(History, AFullDiskIsToldOnceAndTheRowsStay)
+{
+  const auto directory = scratch_directory("history_full");
+  testing::internal::CaptureStderr();
+  {
+    History history(directory, MPI_COMM_WORLD);
+    add_row(history, 0);
+    history.add_series("residuals", std::vector<double>(100000, 1.));
+    if (is_first_rank())
+      {
+        std::filesystem::create_symlink("/dev/full", directory + "/history.h5");
+        EXPECT_THROW(history.finish(), ComputationError);
+      }
+  }
+  {
+    // The destructor tries again, without a word.
+    History history(directory, MPI_COMM_WORLD, 1.);
+    add_row(history, 1);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(read_csv(directory + "/history.csv").size(), 2u);
+}
+
+TEST(History, GoesOnWithTheRowsOfTheCheckpointOnly)
+{
+  const auto    directory = scratch_directory("history_goes_on");
+  std::uint32_t checksum  = 0;
+  {
+    History history(directory, MPI_COMM_WORLD);
+    add_row(history, 0);
+    add_row(history, 1);
+    checksum = history.checksum();
+    add_row(history, 2);
+  }
+  const std::string written = read_text(directory + "/history.csv");
+  {
+    History history(directory, MPI_COMM_WORLD, 0.15, checksum);
+    EXPECT_EQ(history.checksum(), checksum);
+    EXPECT_EQ(history.warning(), "");
+    add_row(history, 2);
+  }
+  EXPECT_EQ(read_text(directory + "/history.csv"), written);
+}
+
+TEST(History, OtherRowsAndColumnsAreRefusedAndLostOnesAreTold)
+{
+  const auto    directory = scratch_directory("history_other");
+  const auto    path      = directory + "/history.csv";
+  std::uint32_t checksum  = 0;
+  {
+    History history(directory, MPI_COMM_WORLD);
+    add_row(history, 0);
+    add_row(history, 1);
+    checksum = history.checksum();
+  }
+  std::string text = read_text(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  {
+    History history(directory, MPI_COMM_WORLD, 1., checksum);
+    history.add("time [s]", 0.2);
+    history.add("reaction right [N/m]", 1.);
+    try
+      {
+        history.end_row();
+        ADD_FAILURE() << "other columns are accepted";
+      }
+    catch (const InputError &error)
+      {
+        for (const char *word : {"history.csv", "'reaction left [N/m]' there", "'reaction right [N/m]' here"})
+          EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      }
+  }
+  text[text.find("1.4142") + 2] ^= 1;
+  if (is_first_rank())
+    std::ofstream(path) << text;
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_THROW(History(directory, MPI_COMM_WORLD, 1., checksum), InputError);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (is_first_rank())
+    std::filesystem::remove(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const History history(directory, MPI_COMM_WORLD, 1., checksum);
+  EXPECT_NE(history.warning().find("no history.csv"), std::string::npos);
 }
