@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Holds every include of the library against the table of rooms.
+"""Holds every include of the library, and the table of source/README.md, against the table of rooms.
 
 A room may include itself and rooms of lower floors, never a sibling of its own
 floor. Own headers are included as <perideal/room/file.h>, never by a relative path.
@@ -40,6 +40,7 @@ FLOORS = {
     "application": 15,
 }
 
+README_ROW = re.compile(r"^\|\s*(\d+)\s*\|\s*`([\w/]+)`\s*\|", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -87,6 +88,15 @@ def check_tree(root):
     return files, violations
 
 
+def check_readme(text):
+    """Where the table of rooms in source/README.md differs from FLOORS."""
+    rows = [(room, int(floor)) for floor, room in README_ROW.findall(text)]
+    if rows == list(FLOORS.items()):
+        return []
+    different = sorted(set(rows) ^ set(FLOORS.items())) or "the order of the rooms"
+    return [f"source/README.md: its table of rooms is not that of tests/check_includes.py: {different}"]
+
+
 def self_test():
     """Every good file passes and every bad one is found."""
     cases = [
@@ -116,7 +126,14 @@ def self_test():
         if files != 1 or len(violations) != expected:
             failures += 1
             print(f"{path}: {len(violations)} violations found instead of {expected}")
-    print(f"self-test: {len(cases) - failures} of {len(cases)} cases as expected")
+    table = "".join(f"| {floor} | `{room}` | what it holds |\n" for room, floor in FLOORS.items())
+    readmes = [(table, 0), (table.replace("| 2 | `mesh`", "| 3 | `mesh`"), 1), (table.replace("mesh", "cellar"), 1), ("", 1)]
+    for text, expected in readmes:
+        if len(check_readme(text)) != expected:
+            failures += 1
+            print(f"{text}: {check_readme(text)} instead of {expected} violations")
+    n_cases = len(cases) + len(readmes)
+    print(f"self-test: {n_cases - failures} of {n_cases} cases as expected")
     return 1 if failures else 0
 
 
@@ -125,6 +142,7 @@ def main():
         return self_test()
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
     files, violations = check_tree(root)
+    violations += check_readme((root / "source" / "README.md").read_text(encoding="utf-8"))
     for violation in violations:
         print(violation)
     print(f"{files} files, {len(violations)} violations")

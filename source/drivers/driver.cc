@@ -58,7 +58,7 @@ namespace perideal
     finish(reached_end ? RunStatus::done : RunStatus::stopped);
     if (!reached_end)
       throw Stopped("asked to stop after " + last_step() +
-                    "; the checkpoint is written\n  advice: to go on, run the same scene with --set "
+                    "; the checkpoint is written\n  advice: to continue, run the same scene with --set "
                     "Checkpoints/Restart=true");
   }
 

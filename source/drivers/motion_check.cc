@@ -60,7 +60,7 @@ namespace perideal
     else
       rows_without_balance = 0;
     if (rows_without_balance > 3)
-      reason = "the energy that is there is not what was put in";
+      reason = "the energy balance error exceeds half of the energy";
     if (reason.empty())
       return;
     const bool has_energy = problem.parameters.model.form_traits().follows_from_energy;

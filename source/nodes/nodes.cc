@@ -74,11 +74,12 @@ namespace perideal
                       "sphere; or cell: an ellipsoid with as many cells along each of its axes, for cells "
                       "that are long in one direction (consistent form only); automatic: cell for the "
                       "consistent form where the mean aspect ratio of the cells is above 3, else sphere");
-    prm.add_parameter("Share equal families",
-                      share_equal_families,
-                      "Whether families that are equal but for rounding, as in structured parts of a mesh, "
-                      "are weighed once and keep their weights once, where many are; false weighs each: for "
-                      "comparisons of time and memory");
+    prm.add_parameter(
+      "Share equal families",
+      share_equal_families,
+      "Whether families that are identical but for rounding, as in structured parts of a mesh, "
+      "are weighed once and share their weights, where many are; false weighs each: for "
+      "comparisons of time and memory");
     prm.add_parameter(
       "Perturbation",
       perturbation,
@@ -94,7 +95,7 @@ namespace perideal
     InputErrorCollector errors;
     // Below one spacing a node of a uniform mesh reaches no neighbour at all.
     if (!(horizon_factor >= 1.01 && horizon_factor <= 20))
-      errors.add(InputError("this horizon makes no families")
+      errors.add(InputError("this horizon factor gives no usable families")
                    .parameter("Nodes/Horizon factor")
                    .allowed("1.01 to 20; 3.01 is usual"));
     // A convex quadrilateral of any shape keeps its node up to 2/3; the thinnest, a triangle, not beyond.

@@ -104,7 +104,7 @@ namespace perideal
       return InputError(problem)
         .parameter("Checkpoints/Restart")
         .given(file)
-        .hint("set Checkpoints/Restart = false to start anew");
+        .hint("set Checkpoints/Restart = false to start from the beginning");
     }
 
     /// Lets every rank read by itself; returns the first complaint of a rank, to all. Collective.
@@ -157,7 +157,7 @@ namespace perideal
             return pointer.is_object() && pointer.contains(name) && test(pointer[name]);
           };
           if (!file.is_open())
-            result.problem = "there is no checkpoint to go on from";
+            result.problem = "there is no checkpoint to continue from";
           else if (is("file", [](const Json &value) { return value.is_string(); }) &&
                    is("checksum", [](const Json &value) { return value.is_number_unsigned(); }))
             {
@@ -372,7 +372,7 @@ namespace perideal
     return InputError("the checkpoint has no '" + name + "' that this scene could go on with")
       .parameter("Checkpoints/Restart")
       .hint(
-        "it was written by another version of the program: set Checkpoints/Restart = false to start anew");
+        "it was written by another version of the program: set Checkpoints/Restart = false to start from the beginning");
   }
 
   void

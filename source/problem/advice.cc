@@ -93,7 +93,7 @@ namespace perideal
       if (problem.parameters.solver.is_dynamic() && !model.form_traits().follows_from_energy)
         result.push_back(
           "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
-          "Material/Form = energy keeps what was put in");
+          "Material/Form = energy conserves energy");
       const auto &conditions = problem.loading.loads.conditions;
       if (model.is_tensor_involved() && !model.is_consistent() &&
           std::none_of(

@@ -87,13 +87,13 @@ namespace perideal
     prm.add_parameter("Steps",
                       steps,
                       "Steps of dynamics, or load steps of quasi static and dynamic relaxation, between two "
-                      "checkpoints, from which a run that was stopped goes on; 0: only when the program is "
+                      "checkpoints, from which a stopped run continues; 0: only when the program is "
                       "asked to stop (SIGTERM, SIGINT), which it does after the step",
                       Integer(0));
     prm.add_parameter(
       "Restart",
       restart,
-      "Go on from the last checkpoint in Output directory; any number of ranks may do so, and "
+      "Continue from the last checkpoint in Output directory; any number of ranks may do so, and "
       "Solver/End time and the section Output may change",
       Bool());
     prm.leave_subsection();

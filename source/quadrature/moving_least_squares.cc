@@ -78,7 +78,7 @@ namespace perideal
     if (!(reciprocal_condition * largest_condition >= 1.))
       {
         std::ostringstream text;
-        text << "the points within the radius lie in no general position (condition of their moments "
+        text << "the points within the radius are not in general position (condition of their moments "
              << 1. / reciprocal_condition << ")";
         reason = text.str();
         return false;

@@ -71,9 +71,10 @@ namespace perideal
         std::string text;
         const Json  damage = summary.value("damage", Json::object());
         if (n_floating > 0)
-          text += "warning     " + grouped(n_floating) +
-                  " nodes hang loose, held by weak springs where they came loose: loads on them move them as "
-                  "far as these give\n";
+          text +=
+            "warning     " + grouped(n_floating) +
+            " nodes are disconnected from the supports and held by weak springs: their displacement under a "
+            "load is that of the springs\n";
         if (damage.contains("cut_bonds"))
           text += "precracks   " + grouped(damage["cut_bonds"].get<GlobalIndex>()) + " cut bonds\n";
         if (damage.value("broken_bonds", GlobalIndex(0)) > 0)

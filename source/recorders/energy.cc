@@ -72,11 +72,11 @@ namespace perideal
         };
         std::string text = "energy      " + number("kinetic") + " J kinetic, " + number("strain") +
                            " J strain, " + number("dissipated") + " J dissipated, " + number("external") +
-                           " J put in; error " + number("drift") + '\n';
+                           " J external work; energy balance error " + number("drift") + '\n';
         if (!(std::abs(worst) <= 0.01))
-          text +=
-            "warning     the energy is off by more than 1 %: take a smaller time step, or a form that has "
-            "an energy\n";
+          text += "warning     the energy balance error exceeds 1 %: take a smaller time step, or a form "
+                  "that has an "
+                  "energy\n";
         return text;
       }
 

@@ -238,7 +238,7 @@ namespace perideal
       place.interpolation.append(fit.weights_at(x));
     for (const std::string &problem : MPI::all_gather(communicator, fit.problem))
       if (!problem.empty())
-        throw InputError("the nodes around the point make no interpolation: " + problem)
+        throw InputError("the nodes around the point allow no interpolation: " + problem)
           .parameter(section + "/Point")
           .hint("refine the mesh");
     return place;
