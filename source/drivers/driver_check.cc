@@ -20,6 +20,7 @@ namespace perideal
     problem.build();
     prepare_scene();
     problem.weigh();
+    prepare_damping();
     recorders   = std::make_unique<Recorders<dim>>(problem, kind);
     auto &out   = problem.run.screen;
     auto  skips = list_skipped(problem);

@@ -4,11 +4,9 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/motion_check.h>
-#include <perideal/operators/force/contact_force.h>
-#include <perideal/operators/force/relative_damping.h>
+#include <perideal/drivers/motion_forces.h>
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
-#include <perideal/solvers/explicit_dynamics.h>
 
 #include <algorithm>
 #include <array>
@@ -57,42 +55,16 @@ namespace perideal
       void prepare() override
       {
         problem.weigh();
-        make_relative_damping();
+        prepare_damping();
         choose_time_step();
         problem.make_force();
         problem.make_failure();
         const Timings::Scope scope(problem.run.timings, "setup");
-        make_contact();
+        forces.make_contact(problem);
         release_what_only_the_step_needed();
         const Nodes<dim> &nodes = *problem.body.nodes;
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           mass.push_back(problem.body.density_of(nodes.material[i]) * nodes.volume[i]);
-      }
-
-      void make_relative_damping()
-      {
-        if (solver.relative_damping > 0)
-          relative_damping = std::make_unique<RelativeDamping<dim>>(
-            problem.discretisation.weights,
-            solver.relative_damping,
-            [&](const dealii::types::material_id id) { return problem.body.density_of(id); });
-      }
-
-      void make_contact()
-      {
-        if (!has_contact(problem.parameters))
-          return;
-        std::vector<bool> on_surface(problem.body.nodes->size(), false);
-        for (const BoundaryFace<dim> &face : problem.body.faces)
-          on_surface[face.node] = true;
-        contact = std::make_unique<ContactForce<dim>>(
-          problem.discretisation.families,
-          problem.parameters.contact,
-          problem.parameters.nodes.horizon_factor,
-          [&](const dealii::types::material_id id) {
-            return problem.body.solids.at(id).isotropic().bulk_modulus();
-          },
-          on_surface);
       }
 
       void release_what_only_the_step_needed()
@@ -113,10 +85,9 @@ namespace perideal
           });
       }
 
-      double damping() const override
-      {
-        return solver.damping + (relative_damping ? relative_damping->largest_rate() : 0.);
-      }
+      void prepare_damping() override { forces.make_damping(problem); }
+
+      double damping() const override { return solver.damping + forces.largest_rate(); }
 
       void choose_time_step()
       {
@@ -150,8 +121,8 @@ namespace perideal
         nlohmann::ordered_json result = {{"matrix, preconditioner (explicit)", 1}};
         if (!has_contact(problem.parameters))
           result[can_break(problem.parameters) ? "contact (off)" : "contact (nothing can break)"] = 1;
-        if (contact && contact->n_searches() > 0)
-          result["nodes left out of the search for contacts"] = contact->n_left_out();
+        if (forces.contact && forces.contact->n_searches() > 0)
+          result["nodes left out of the search for contacts"] = forces.contact->n_left_out();
         if (problem.force)
           result["bonds at rest"] = 1. - problem.force->share_computed();
         return result;
@@ -159,18 +130,11 @@ namespace perideal
 
       std::size_t memory_consumption() const override
       {
-        return Driver<dim>::memory_consumption() + (contact ? contact->memory_consumption() : 0);
+        return Driver<dim>::memory_consumption() +
+               (forces.contact ? forces.contact->memory_consumption() : 0);
       }
 
-      std::string closing_lines() const override
-      {
-        const auto &summary = recorders->summary();
-        if (summary.contains("contact") &&
-            summary.at("contact").at("largest_overlap").template get<double>() > 0.5)
-          return "warning     nodes came to less than half their contact distance and may have passed each "
-                 "other: raise Contact/Stiffness\n";
-        return {};
-      }
+      std::string closing_lines() const override { return forces.describe(recorders->summary()); }
 
       std::string last_step() const override
       {
@@ -191,10 +155,7 @@ namespace perideal
                                                            solver.integrator == Integrator::velocity_verlet ?
                                                                 Start::velocity_verlet :
                                                                 Start::symplectic_euler);
-        if (contact)
-          dynamics->set_contact(contact.get());
-        if (relative_damping)
-          dynamics->set_relative_damping(relative_damping.get());
+        forces.act_on(*dynamics);
         const Nodes<dim> &nodes = *problem.body.nodes;
         for (int d = 0; d < dim; ++d)
           if (initial_velocity[d].is_present())
@@ -279,7 +240,7 @@ namespace perideal
             const Timings::Scope scope(problem.run.timings, "energy");
             step.energy_error = this->energy_error(step.energy, step.energy.kinetic);
             recorders->record(step);
-            record_contact();
+            forces.record(recorders->summary());
           }
         if (all_broke)
           throw ComputationError(
@@ -319,18 +280,6 @@ namespace perideal
             }
       }
 
-      void record_contact()
-      {
-        if (!contact)
-          return;
-        auto        &summary = recorders->summary();
-        const double before =
-          summary.contains("contact") ? summary["contact"].value("largest_overlap", 0.) : 0.;
-        summary["contact"] = {{"pairs", contact->n_contacts()},
-                              {"largest_overlap", std::max(before, contact->largest_overlap())},
-                              {"searches", contact->n_searches()}};
-      }
-
       void save()
       {
         const Timings::Scope scope(problem.run.timings, "output");
@@ -345,8 +294,8 @@ namespace perideal
         checkpoint.shares = dynamics->energy_shares();
         this->write(checkpoint);
         // The run that goes on makes its lists anew; this one does so too, for the same order of sums.
-        if (contact)
-          contact->forget_lists();
+        if (forces.contact)
+          forces.contact->forget_lists();
       }
 
       void resume()
@@ -359,15 +308,14 @@ namespace perideal
                          header.at("dissipated energy").template get<double>(),
                          resumed->shares);
         problem.force->restore_broken(resumed->broken);
-        if (contact)
+        if (forces.contact)
           recorders->summary()["contact"] = header.at("contact");
         this->resume_records();
       }
 
       const SolverParameters                 &solver;
       std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
-      std::unique_ptr<ContactForce<dim>>      contact;
-      std::unique_ptr<RelativeDamping<dim>>   relative_damping;
+      MotionForces<dim>                       forces;
       std::vector<double>                     mass;
       /// [s]
       double                                 time_step = 0, stable_step = 0;

@@ -33,6 +33,9 @@ namespace perideal
     /// Reads what the scene says of failure and motion; needs the nodes. Collective.
     virtual void prepare_scene() = 0;
 
+    /// Makes what damps a motion, and with it bounds stable steps; needs the weights.
+    virtual void prepare_damping() {}
+
     /// Builds everything up to the first step. Collective.
     virtual void prepare() = 0;
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/force/family_force.h>
 #include <perideal/operators/force/tensor_force.h>
 
@@ -62,8 +63,8 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
-  PERIDEAL_INSTANTIATE_SHAPE(create_bond_force)
   template class FamilyForce<dim, n_sums, own_force_weights>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
 #undef PERIDEAL_INSTANTIATE_SHAPE
+  PERIDEAL_INSTANTIATE(create_bond_force)
 } // namespace perideal

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
 #include <perideal/operators/weights/equal_families.h>
 #include <perideal/operators/weights/family_weights.h>
 #include <perideal/operators/weights/tensor_weights.h>
@@ -248,9 +249,9 @@ namespace perideal
       });
   }
 
-#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights) PERIDEAL_INSTANTIATE_SHAPE(weigh_bonds)
+#define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template class FamilyWeights<dim, n_sums, own_force_weights>;
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
 #undef PERIDEAL_INSTANTIATE_SHAPE
-
+  PERIDEAL_INSTANTIATE(weigh_bonds)
 } // namespace perideal
