@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 set -euo pipefail
 
-# Debian packages: to build and run, then to test.
-packages=(
-  g++ cmake ninja-build libdeal.ii-dev libeigen3-dev nlohmann-json3-dev openmpi-bin gmsh
-  libgtest-dev python3 git clang-format
-)
+# Debian packages: to build and run; to test.
+packages=(g++ cmake ninja-build libdeal.ii-dev libeigen3-dev nlohmann-json3-dev openmpi-bin gmsh)
+test_packages=(libgtest-dev python3 git clang-format clang-tidy)
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build
@@ -19,10 +17,11 @@ usage: ./perideal.sh COMMAND
   run FILE.prm [ARGUMENTS]  build the program and run a scene with it
   build                     build the program, build/perideal
   test [CTEST ARGUMENTS]    build everything and run every test
-  install-packages          install what is missing of the Debian packages needed
+  install-packages          install what is missing of the Debian packages needed, those for tests too
   help                      print this text
 
-The first three install missing packages first. On several cores, after a build:
+The first three install missing packages first. Sources are compiled in groups, which is fastest from scratch; who
+edits them had better configure the folder build with -DPERIDEAL_UNITY=OFF first. On several cores, after a build:
   mpirun -np 2 build/perideal FILE.prm
 HELP
 }
@@ -79,14 +78,20 @@ n_jobs()
   printf '%s\n' "$cores"
 }
 
-# Builds a target; all that is printed goes to stderr, stdout belongs to the program.
+# Builds a target, its build configured with the further options given where it is not yet; all that is printed
+# goes to stderr, stdout belongs to the program.
 build_target()
 {
+  local target=$1
+  shift
   install_packages
   if [[ ! -f $build/build.ninja ]]; then
-    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPERIDEAL_NATIVE=ON >&2
+    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPERIDEAL_NATIVE=ON -DPERIDEAL_UNITY=ON \
+      -DBUILD_TESTING=OFF "$@" >&2
+  elif [[ $# -gt 0 ]]; then
+    cmake "$@" "$build" >&2
   fi
-  cmake --build "$build" --target "$1" --parallel "$(n_jobs)" >&2
+  cmake --build "$build" --target "$target" --parallel "$(n_jobs)" >&2
 }
 
 case ${1:-help} in
@@ -105,10 +110,12 @@ case ${1:-help} in
     ;;
   test)
     shift
-    build_target all
+    packages+=("${test_packages[@]}")
+    build_target all -DBUILD_TESTING=ON
     ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$(env -u OMP_NUM_THREADS nproc)" "$@"
     ;;
   install-packages)
+    packages+=("${test_packages[@]}")
     install_packages
     ;;
   help | --help | -h)

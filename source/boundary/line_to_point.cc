@@ -57,18 +57,18 @@ namespace perideal
   namespace
   {
     /// Points of a face, with the area that each stands for.
-    struct FacePoint
+    struct TractionPoint
     {
       dealii::Point<3> position;
       double           area;
     };
 
-    std::vector<FacePoint> points_of(const SurfaceFace<3> &face, const bool one)
+    std::vector<TractionPoint> points_of(const SurfaceFace<3> &face, const bool one)
     {
       if (one)
         return {{face.centre, face.area}};
       static const dealii::QGauss<2> gauss(3);
-      std::vector<FacePoint>         result;
+      std::vector<TractionPoint>     result;
       double                         measure = 0;
       for (const auto &at : gauss.get_points())
         {
@@ -84,7 +84,7 @@ namespace perideal
           result.push_back({position, area});
           measure += area;
         }
-      for (FacePoint &point : result)
+      for (TractionPoint &point : result)
         point.area *= face.area / measure;
       return result;
     }
@@ -119,10 +119,10 @@ namespace perideal
                                 const bool                                          as_printed,
                                 NodalVector                                        &force)
   {
-    const std::vector<double>           traction = normal_tractions(faces, loads, time);
-    std::vector<std::vector<FacePoint>> points;
+    const std::vector<double>               traction = normal_tractions(faces, loads, time);
+    std::vector<std::vector<TractionPoint>> points;
     for (std::size_t k = 0; k < faces.size(); ++k)
-      points.push_back(traction[k] != 0 ? points_of(faces[k], as_printed) : std::vector<FacePoint>());
+      points.push_back(traction[k] != 0 ? points_of(faces[k], as_printed) : std::vector<TractionPoint>());
     visit_nearby_faces<3>(
       nodes, faces, [&](const LocalIndex i, const std::vector<const SurfaceFace<3> *> &near) {
         const LineToPoint    law = law_of(i);
@@ -130,7 +130,7 @@ namespace perideal
         for (const auto *face : near)
           {
             const std::size_t k = face - faces.data();
-            for (const FacePoint &point : points[k])
+            for (const TractionPoint &point : points[k])
               {
                 const auto   to_point = point.position - nodes.position[i];
                 const double depth    = to_point * face->normal;
