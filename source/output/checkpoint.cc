@@ -371,8 +371,8 @@ namespace perideal
   {
     return InputError("the checkpoint has no '" + name + "' that this scene could go on with")
       .parameter("Checkpoints/Restart")
-      .hint(
-        "it was written by another version of the program: set Checkpoints/Restart = false to start from the beginning");
+      .hint("it was written by another version of the program: set Checkpoints/Restart = false to start from "
+            "the beginning");
   }
 
   void
