@@ -69,7 +69,7 @@ namespace perideal
 
       void release_what_only_the_step_needed()
       {
-        Discretisation<dim> &discretisation = problem.discretisation;
+        DiscreteBody<dim> &discretisation = problem.discretisation;
         problem.system.reset();
         discretisation.bonds.reset();
         if (!problem.parameters.model.recomputes())

@@ -86,10 +86,10 @@ namespace perideal
   template <int dim>
   Json list_skipped(const Problem<dim> &problem)
   {
-    Json                       result;
-    const SceneParameters     &parameters     = problem.parameters;
-    const Discretisation<dim> &discretisation = problem.discretisation;
-    const auto                 bonds          = discretisation.families->n_bonds();
+    Json                     result;
+    const SceneParameters   &parameters     = problem.parameters;
+    const DiscreteBody<dim> &discretisation = problem.discretisation;
+    const auto               bonds          = discretisation.families->n_bonds();
     if (!can_break(parameters))
       result["bond state (nothing can break)"] = bonds;
     const GlobalIndex different = discretisation.counts.different;
@@ -111,12 +111,12 @@ namespace perideal
   template <int dim>
   std::string banner(const Problem<dim> &problem, const std::string &of_driver, const Json &skipped)
   {
-    const SceneParameters     &parameters     = problem.parameters;
-    const Discretisation<dim> &discretisation = problem.discretisation;
-    const Loading<dim>        &loading        = problem.loading;
-    const auto                 statistics     = discretisation.families->statistics();
-    const GlobalIndex          n_nodes        = problem.body.nodes->n_global;
-    std::ostringstream         out;
+    const SceneParameters   &parameters     = problem.parameters;
+    const DiscreteBody<dim> &discretisation = problem.discretisation;
+    const Loading<dim>      &loading        = problem.loading;
+    const auto               statistics     = discretisation.families->statistics();
+    const GlobalIndex        n_nodes        = problem.body.nodes->n_global;
+    std::ostringstream       out;
     out << "mesh        " << problem.body.mesh->description << '\n'
         << "nodes       " << grouped(n_nodes) << ", horizon " << parameters.nodes.horizon_factor
         << " spacings, influence " << parameters.model.influence_function << '\n'

@@ -67,7 +67,7 @@ namespace perideal
 
   template <int dim>
   void
-  Failure<dim>::apply(const Body<dim> &body, const Discretisation<dim> &discretisation, BondForce<dim> &force)
+  Failure<dim>::apply(const Body<dim> &body, const DiscreteBody<dim> &discretisation, BondForce<dim> &force)
   {
     if (!precracks.empty())
       n_cut_bonds = force.cut(precrack_test());

@@ -95,10 +95,10 @@ namespace perideal
   }
 
   template <int dim>
-  Json Loading<dim>::resultants(const Discretisation<dim> &discretisation,
-                                const NodalVector         &displacement,
-                                const NodalVector         &external,
-                                const double               time) const
+  Json Loading<dim>::resultants(const DiscreteBody<dim> &discretisation,
+                                const NodalVector       &displacement,
+                                const NodalVector       &external,
+                                const double             time) const
   {
     const Nodes<dim> &nodes        = *body.nodes;
     const MPI_Comm    communicator = nodes.communicator;

@@ -79,7 +79,7 @@ namespace perideal
   }
 
   template <int dim>
-  void Loading<dim>::surround(Discretisation<dim> &discretisation, Timings &timings)
+  void Loading<dim>::surround(DiscreteBody<dim> &discretisation, Timings &timings)
   {
     const LoadParameters &given = body.parameters.loads;
     if (given.has_taylor_extension())

@@ -13,9 +13,9 @@
 namespace perideal
 {
   template <int dim>
-  void Loading<dim>::external_force(const Discretisation<dim> &discretisation,
-                                    const double               time,
-                                    NodalVector               &force) const
+  void Loading<dim>::external_force(const DiscreteBody<dim> &discretisation,
+                                    const double             time,
+                                    NodalVector             &force) const
   {
     set_tractions(discretisation, loads, time, force);
     if (published_transfer)
@@ -26,10 +26,10 @@ namespace perideal
   }
 
   template <int dim>
-  void Loading<dim>::set_tractions(const Discretisation<dim> &discretisation,
-                                   const Loads<dim>          &given,
-                                   const double               time,
-                                   NodalVector               &force) const
+  void Loading<dim>::set_tractions(const DiscreteBody<dim> &discretisation,
+                                   const Loads<dim>        &given,
+                                   const double             time,
+                                   NodalVector             &force) const
   {
     const SceneParameters &parameters = body.parameters;
     const Nodes<dim>      &nodes      = *body.nodes;
@@ -86,7 +86,7 @@ namespace perideal
   }
 
   template <int dim>
-  StaticBalance<dim> Loading<dim>::balance(const Discretisation<dim>      &discretisation,
+  StaticBalance<dim> Loading<dim>::balance(const DiscreteBody<dim>        &discretisation,
                                            const ConstrainedOperator<dim> &system,
                                            const NodalVector              &displacement,
                                            const NodalVector              &external,

@@ -133,8 +133,8 @@ namespace perideal
       /// Of the strain that the linear forms have at nodes, or of the bonds.
       Stresses stress_of_nodes() const
       {
-        const Body<dim>           &body           = problem.body;
-        const Discretisation<dim> &discretisation = problem.discretisation;
+        const Body<dim>         &body           = problem.body;
+        const DiscreteBody<dim> &discretisation = problem.discretisation;
         if (!problem.parameters.model.is_linear_only())
           return problem.force ? partial_stress<dim>(*discretisation.families, *problem.force) :
                                  partial_stress<dim>(*discretisation.families, *discretisation.bonds);

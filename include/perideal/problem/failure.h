@@ -5,7 +5,7 @@
 #include <perideal/fracture/no_fail_zones.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/operators/force/bond_force.h>
-#include <perideal/problem/discretisation.h>
+#include <perideal/problem/discrete_body.h>
 
 #include <memory>
 #include <vector>
@@ -28,7 +28,7 @@ namespace perideal
     critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
 
     /// Cuts what precracks cross and gives bonds their limits. Collective.
-    void apply(const Body<dim> &body, const Discretisation<dim> &discretisation, BondForce<dim> &force);
+    void apply(const Body<dim> &body, const DiscreteBody<dim> &discretisation, BondForce<dim> &force);
 
     std::vector<Precrack<dim>>        precracks;
     std::unique_ptr<NoFailZones<dim>> no_fail_zones;

@@ -12,7 +12,7 @@
 #include <perideal/operators/linear/taylor_extension.h>
 #include <perideal/operators/system/constrained_operator.h>
 #include <perideal/operators/system/null_space.h>
-#include <perideal/problem/discretisation.h>
+#include <perideal/problem/discrete_body.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -58,7 +58,7 @@ namespace perideal
     void take_face_values(const FaceGradient<dim> &gradient);
 
     /// Adds what acts besides the bonds, and makes what passes tractions on. Collective.
-    void surround(Discretisation<dim> &discretisation, Timings &timings);
+    void surround(DiscreteBody<dim> &discretisation, Timings &timings);
 
     /// Returns the nodes whose displacements are the unknowns, those of the cells first.
     const NodeCloud<dim> &unknowns() const;
@@ -80,24 +80,23 @@ namespace perideal
                    NodalVector                               &displacement) const;
 
     /// Sets the external force of all loads at a time [N], overwritten. Collective.
-    void
-    external_force(const Discretisation<dim> &discretisation, const double time, NodalVector &force) const;
+    void external_force(const DiscreteBody<dim> &discretisation, const double time, NodalVector &force) const;
 
     /// Tractions of faces, body forces and point loads of this rank as forces at their places, at t = 1.
     std::vector<typename NullSpace<dim>::Force> forces_on_body() const;
 
     /// Returns supports and energies of a linear equilibrium. Collective.
-    StaticBalance<dim> balance(const Discretisation<dim>      &discretisation,
+    StaticBalance<dim> balance(const DiscreteBody<dim>        &discretisation,
                                const ConstrainedOperator<dim> &system,
                                const NodalVector              &displacement,
                                const NodalVector              &external,
                                const double                    time) const;
 
     /// Returns the resultants of the loads and of what the nodes get of them, for summary.json. Collective.
-    nlohmann::ordered_json resultants(const Discretisation<dim> &discretisation,
-                                      const NodalVector         &displacement,
-                                      const NodalVector         &external,
-                                      const double               time) const;
+    nlohmann::ordered_json resultants(const DiscreteBody<dim> &discretisation,
+                                      const NodalVector       &displacement,
+                                      const NodalVector       &external,
+                                      const double             time) const;
 
     const Body<dim> &body;
     Loads<dim>       loads;
@@ -117,10 +116,10 @@ namespace perideal
 
   private:
     /// Forces by the tractions and body forces of some loads on the conditions of the scene, overwritten.
-    void set_tractions(const Discretisation<dim> &discretisation,
-                       const Loads<dim>          &given,
-                       const double               time,
-                       NodalVector               &force) const;
+    void set_tractions(const DiscreteBody<dim> &discretisation,
+                       const Loads<dim>        &given,
+                       const double             time,
+                       NodalVector             &force) const;
     /// Resultant over the faces of a condition of the tractions that ghosts meet there.
     Resultant<dim>
     met_by_extension(const std::size_t condition, const NodalVector &displacement, const double time) const;

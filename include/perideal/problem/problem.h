@@ -74,7 +74,7 @@ namespace perideal
 
     Body<dim>                                 body;
     Loading<dim>                              loading;
-    Discretisation<dim>                       discretisation;
+    DiscreteBody<dim>                         discretisation;
     Failure<dim>                              failure;
     std::unique_ptr<ConstrainedOperator<dim>> system;
     /// Of dynamics and nonlinear equilibria.

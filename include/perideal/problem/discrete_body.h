@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef perideal_problem_discretisation_h
-#define perideal_problem_discretisation_h
+#ifndef perideal_problem_discrete_body_h
+#define perideal_problem_discrete_body_h
 
 #include <perideal/materials/linear_model.h>
 #include <perideal/neighbourhood/connected_parts.h>
@@ -33,7 +33,7 @@ namespace perideal
    * with strains from faces, and the correspondence model.
    */
   template <int dim>
-  struct Discretisation
+  struct DiscreteBody
   {
     /// Finds the families of a cloud of nodes, those of the body first. Collective.
     /// @throws InputError when a node has no neighbour.

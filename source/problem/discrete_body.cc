@@ -6,7 +6,7 @@
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
 #include <perideal/operators/linear/polynomial_response.h>
-#include <perideal/problem/discretisation.h>
+#include <perideal/problem/discrete_body.h>
 #include <perideal/quadrature/bond_volume.h>
 
 namespace perideal
@@ -23,7 +23,7 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud)
+  void DiscreteBody<dim>::find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud)
   {
     families = std::make_shared<Families<dim>>(cloud, create_volume_rule<dim>(parameters.quadrature));
     if (families->statistics().min == 0)
@@ -33,14 +33,14 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::find_parts(const Body<dim> &body, const BondPredicate<dim> &is_cut)
+  void DiscreteBody<dim>::find_parts(const Body<dim> &body, const BondPredicate<dim> &is_cut)
   {
     if (!parts)
       parts.emplace(*body.mesh, *body.nodes, *families, is_cut);
   }
 
   template <int dim>
-  void Discretisation<dim>::make_gradient(const Body<dim> &body)
+  void DiscreteBody<dim>::make_gradient(const Body<dim> &body)
   {
     if (!gradient)
       gradient = std::make_shared<const FaceGradient<dim>>(
@@ -50,10 +50,10 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::weigh(const Body<dim>                        &body,
-                                  const std::shared_ptr<FaceValues<dim>> &face_values,
-                                  const std::vector<SurfaceFace<dim>>    &surface,
-                                  const BondPredicate<dim>               &is_cut)
+  void DiscreteBody<dim>::weigh(const Body<dim>                        &body,
+                                const std::shared_ptr<FaceValues<dim>> &face_values,
+                                const std::vector<SurfaceFace<dim>>    &surface,
+                                const BondPredicate<dim>               &is_cut)
   {
     const SceneParameters &parameters = body.parameters;
     if (parameters.model.is_correspondence())
@@ -69,8 +69,8 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::weigh_faces(const Body<dim>                        &body,
-                                        const std::shared_ptr<FaceValues<dim>> &face_values)
+  void DiscreteBody<dim>::weigh_faces(const Body<dim>                        &body,
+                                      const std::shared_ptr<FaceValues<dim>> &face_values)
   {
     bonds = std::make_shared<ConsistentOperator<dim>>(
       families,
@@ -81,8 +81,8 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::weigh_correspondence(const Body<dim>                        &body,
-                                                 const std::shared_ptr<FaceValues<dim>> &face_values)
+  void DiscreteBody<dim>::weigh_correspondence(const Body<dim>                        &body,
+                                               const std::shared_ptr<FaceValues<dim>> &face_values)
   {
     const ModelParameters &parameters = body.parameters.model;
     for (const auto &solid : body.solids)
@@ -98,7 +98,7 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::measure_families(const Body<dim> &body)
+  void DiscreteBody<dim>::measure_families(const Body<dim> &body)
   {
     const ComparisonParameters &comparison = body.parameters.comparison;
     if (!comparison.by_families())
@@ -120,8 +120,7 @@ namespace perideal
   }
 
   template <int dim>
-  SolidsByMaterial<dim> Discretisation<dim>::compared_solids(const Body<dim> &body,
-                                                             const Mesh<dim> &mesh) const
+  SolidsByMaterial<dim> DiscreteBody<dim>::compared_solids(const Body<dim> &body, const Mesh<dim> &mesh) const
   {
     if (!body.parameters.comparison.by_families())
       return body.solids_on(mesh);
@@ -132,7 +131,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::unique_ptr<BondForce<dim>> Discretisation<dim>::create_force() const
+  std::unique_ptr<BondForce<dim>> DiscreteBody<dim>::create_force() const
   {
     if (correspondence)
       return std::make_unique<CorrespondenceForce<dim>>(families, correspondence, laws);
@@ -140,7 +139,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::shared_ptr<TangentOperator<dim>> Discretisation<dim>::create_tangent() const
+  std::shared_ptr<TangentOperator<dim>> DiscreteBody<dim>::create_tangent() const
   {
     // Of the correspondence model, the operator at rest is the tangent.
     if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds);
@@ -150,5 +149,5 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE(solids_of_model)
-  PERIDEAL_INSTANTIATE_CLASS(Discretisation)
+  PERIDEAL_INSTANTIATE_CLASS(DiscreteBody)
 } // namespace perideal

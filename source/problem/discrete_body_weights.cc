@@ -7,7 +7,7 @@
 #include <perideal/operators/linear/gauss_operator.h>
 #include <perideal/operators/linear/surface_cure.h>
 #include <perideal/operators/weights/bond_weights.h>
-#include <perideal/problem/discretisation.h>
+#include <perideal/problem/discrete_body.h>
 #include <perideal/quadrature/gauss_points.h>
 #include <perideal/quadrature/regular_body.h>
 
@@ -52,9 +52,9 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void Discretisation<dim>::weigh_nodes(const Body<dim>                     &body,
-                                        const std::vector<SurfaceFace<dim>> &surface,
-                                        const BondPredicate<dim>            &is_cut)
+  void DiscreteBody<dim>::weigh_nodes(const Body<dim>                     &body,
+                                      const std::vector<SurfaceFace<dim>> &surface,
+                                      const BondPredicate<dim>            &is_cut)
   {
     const SceneParameters &parameters = body.parameters;
     const auto             solid_of   = solids_of_model(body);
@@ -72,8 +72,8 @@ namespace perideal
   }
 
   template <int dim>
-  void Discretisation<dim>::weigh_gauss_points(const Body<dim>                     &body,
-                                               const std::vector<SurfaceFace<dim>> &surface)
+  void DiscreteBody<dim>::weigh_gauss_points(const Body<dim>                     &body,
+                                             const std::vector<SurfaceFace<dim>> &surface)
   {
     const SceneParameters &parameters = body.parameters;
     const auto             solid_of   = solids_of_model(body);
@@ -100,5 +100,5 @@ namespace perideal
     bonds = std::make_shared<GaussOperator<dim>>(families, points, modulus, stiffening);
   }
 
-  PERIDEAL_INSTANTIATE_CLASS(Discretisation)
+  PERIDEAL_INSTANTIATE_CLASS(DiscreteBody)
 } // namespace perideal
