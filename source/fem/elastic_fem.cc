@@ -7,10 +7,7 @@
 #include <perideal/fem/polynomial_multigrid.h>
 #include <perideal/mesh/create_mesh.h>
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 namespace perideal
 {
@@ -56,42 +53,12 @@ namespace perideal
     , loads(loads)
     , external(mesh, loads)
     , own_cells(std::move(cells))
-    , geometry(degree)
-    , element(dealii::FE_Q<dim>(degree), dim)
+    , space(own_cells != nullptr ? *own_cells : mesh.triangulation, degree)
   {
-    if (own_cells != nullptr)
-      unknowns.reinit(*own_cells);
-    else
-      unknowns.reinit(mesh.triangulation);
   }
 
   template <int dim>
   ElasticFem<dim>::~ElasticFem() = default;
-
-  template <int dim>
-  void ElasticFem<dim>::make_constraints()
-  {
-    dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
-    held.reinit(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(unknowns, held);
-    add_prescribed_displacements(geometry, unknowns, body, loads, time, held);
-    pins = pin_free_motions(geometry, unknowns, held);
-    held.close();
-  }
-
-  template <int dim>
-  void ElasticFem<dim>::make_sparsity()
-  {
-    const dealii::IndexSet &owned        = unknowns.locally_owned_dofs();
-    const MPI_Comm          communicator = unknowns.get_communicator();
-
-    dealii::TrilinosWrappers::SparsityPattern sparsity(owned, owned, relevant, communicator);
-    dealii::DoFTools::make_sparsity_pattern(unknowns, sparsity, held, false);
-    sparsity.compress();
-    stiffness.reinit(sparsity);
-    right_hand_side.reinit(owned, relevant, communicator);
-    displacement.reinit(right_hand_side);
-  }
 
   template <int dim>
   void ElasticFem<dim>::cell_system(const Cell                 &cell,
@@ -99,10 +66,10 @@ namespace perideal
                                     dealii::FullMatrix<double> &matrix,
                                     dealii::Vector<double>     &forces) const
   {
-    const auto material = solids.find(cell->material_id());
+    const auto material = assembled.solids.find(cell->material_id());
     // Not an Assert: in Release a body without stiffness would come out, silently.
     AssertThrow(
-      material != solids.end(),
+      material != assembled.solids.end(),
       dealii::ExcMessage("no elastic constants for material id " + std::to_string(cell->material_id())));
     integrals.stiffness(cell, material->second, matrix);
 
@@ -113,21 +80,26 @@ namespace perideal
   template <int dim>
   void ElasticFem<dim>::assemble(const SolidsByMaterial<dim> &solids, const double time)
   {
-    this->solids = solids;
-    this->time   = time;
+    assembled.solids = solids;
+    assembled.time   = time;
     algebraic_multigrid.reset();
     polynomial_multigrid.reset();
-    unknowns.distribute_dofs(element);
-    make_constraints();
-    make_sparsity();
-    external.reinit(unknowns.get_triangulation(), geometry, time);
+    space.distribute();
+    held = space.hanging_nodes();
+    add_prescribed_displacements(space.geometry, space.unknowns, body, loads, time, held);
+    assembled.pins = pin_free_motions(space.geometry, space.unknowns, held);
+    held.close();
+    space.reinit(stiffness, held);
+    space.reinit(right_hand_side);
+    displacement.reinit(right_hand_side);
+    external.reinit(space.unknowns.get_triangulation(), space.geometry, time);
 
-    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
-    const unsigned int                           n = element.n_dofs_per_cell();
-    dealii::FullMatrix<double>                   matrix(n, n);
-    dealii::Vector<double>                       forces(n);
+    CellIntegrals<dim>         integrals(space.geometry, space.element, dim == 2 ? body.thickness : 1.);
+    const unsigned int         n = space.element.n_dofs_per_cell();
+    dealii::FullMatrix<double> matrix(n, n);
+    dealii::Vector<double>     forces(n);
     std::vector<dealii::types::global_dof_index> indices(n);
-    for (const Cell &cell : unknowns.active_cell_iterators())
+    for (const Cell &cell : space.unknowns.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           cell_system(cell, integrals, matrix, forces);
@@ -141,12 +113,12 @@ namespace perideal
   template <int dim>
   void ElasticFem<dim>::set_up_solver()
   {
-    if (element.degree == 1)
+    if (space.element.degree == 1)
       algebraic_multigrid = std::make_unique<AlgebraicMultigrid<dim>>(*this, true);
     else
       {
         auto linear = std::make_unique<ElasticFem<dim>>(body, loads, own_cells);
-        linear->assemble(solids, time);
+        linear->assemble(assembled.solids, assembled.time);
         polynomial_multigrid = std::make_unique<PolynomialMultigrid<dim>>(*this, std::move(linear));
       }
   }
@@ -182,7 +154,7 @@ namespace perideal
   template <int dim>
   dealii::types::global_cell_index ElasticFem<dim>::n_cells() const
   {
-    return unknowns.get_triangulation().n_global_active_cells();
+    return space.unknowns.get_triangulation().n_global_active_cells();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ElasticFem)

@@ -4,8 +4,6 @@
 #include <perideal/fem/elastic_fem.h>
 #include <perideal/fem/point_evaluation.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <algorithm>
 
 namespace perideal
@@ -14,7 +12,7 @@ namespace perideal
   std::vector<dealii::Tensor<1, dim>>
   ElasticFem<dim>::evaluate(const std::vector<dealii::Point<dim>> &points) const
   {
-    return PointEvaluation<dim>(geometry, unknowns, displacement).evaluate(points);
+    return PointEvaluation<dim>(space.geometry, space.unknowns, displacement).evaluate(points);
   }
 
   template <int dim>
@@ -24,25 +22,24 @@ namespace perideal
     Assert(is_on_mesh_itself(), dealii::ExcMessage("the cells are those of the mesh itself only"));
     AssertDimension(point_of_cell.size(), body.triangulation.n_active_cells());
 
-    return perideal::evaluate_in_cells<dim>(geometry, unknowns, displacement, point_of_cell);
+    return perideal::evaluate_in_cells<dim>(space.geometry, space.unknowns, displacement, point_of_cell);
   }
 
   template <int dim>
   dealii::Tensor<1, dim> ElasticFem<dim>::reaction(const dealii::types::boundary_id boundary) const
   {
     // Forces at hanging nodes belong to the nodes they hang on.
-    dealii::AffineConstraints<double> hanging(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(unknowns, hanging);
+    dealii::AffineConstraints<double> hanging = space.hanging_nodes();
     hanging.close();
 
-    CellIntegrals<dim>                           integrals(geometry, element, dim == 2 ? body.thickness : 1.);
-    const unsigned int                           n = element.n_dofs_per_cell();
-    dealii::FullMatrix<double>                   matrix(n, n);
-    dealii::Vector<double>                       forces(n), values(n), residual(n);
+    CellIntegrals<dim>         integrals(space.geometry, space.element, dim == 2 ? body.thickness : 1.);
+    const unsigned int         n = space.element.n_dofs_per_cell();
+    dealii::FullMatrix<double> matrix(n, n);
+    dealii::Vector<double>     forces(n), values(n), residual(n);
     std::vector<dealii::types::global_dof_index> indices(n);
     NodalVector                                  support(right_hand_side);
     support = 0.;
-    for (const Cell &cell : unknowns.active_cell_iterators())
+    for (const Cell &cell : space.unknowns.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           // Only cells with a constrained unknown contribute to a held one.
@@ -58,7 +55,7 @@ namespace perideal
         }
     support.compress(dealii::VectorOperation::add);
 
-    return sum_of_held(unknowns, held, support, boundary);
+    return sum_of_held(space.unknowns, held, support, boundary);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ElasticFem)

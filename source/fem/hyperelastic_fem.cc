@@ -6,9 +6,6 @@
 #include <perideal/fem/point_evaluation.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 namespace perideal
 {
@@ -23,51 +20,40 @@ namespace perideal
     , controls(controls)
     , thickness(dim == 2 ? mesh.thickness : 1.)
     , external(mesh, loads)
-    , geometry(1)
-    , element(dealii::FE_Q<dim>(1), dim)
-    , unknowns(mesh.triangulation)
+    , space(mesh.triangulation, 1)
   {
-    unknowns.distribute_dofs(element);
-    dealii::DoFTools::extract_locally_relevant_dofs(unknowns, relevant);
-    hanging.reinit(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(unknowns, hanging);
+    space.distribute();
+    hanging = space.hanging_nodes();
     hanging.close();
     prescribe(0.);
 
     // Which unknowns are held does not change with time.
-    const dealii::IndexSet &owned        = unknowns.locally_owned_dofs();
-    const MPI_Comm          communicator = unknowns.get_communicator();
-
-    dealii::TrilinosWrappers::SparsityPattern sparsity(owned, owned, relevant, communicator);
-    dealii::DoFTools::make_sparsity_pattern(unknowns, sparsity, held, false);
-    sparsity.compress();
-    stiffness.reinit(sparsity);
-    for (NodalVector *vector : {&displacement, &external_force, &balance, &correction})
-      vector->reinit(owned, relevant, communicator);
-    displacement.update_ghost_values();
+    space.reinit(stiffness, held);
+    for (NodalVector *vector :
+         {&fields.displacement, &fields.external_force, &fields.balance, &fields.correction})
+      space.reinit(*vector);
+    fields.displacement.update_ghost_values();
   }
 
   template <int dim>
   void HyperelasticFem<dim>::prescribe(const double time)
   {
-    held.reinit(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(unknowns, held);
-    add_prescribed_displacements(geometry, unknowns, body, loads, time, held);
-    pin_free_motions(geometry, unknowns, held);
+    held = space.hanging_nodes();
+    add_prescribed_displacements(space.geometry, space.unknowns, body, loads, time, held);
+    pin_free_motions(space.geometry, space.unknowns, held);
     held.close();
   }
 
   template <int dim>
   typename HyperelasticFem<dim>::Constraints HyperelasticFem<dim>::increments(const bool moving) const
   {
-    Constraints result(relevant);
-    dealii::DoFTools::make_hanging_node_constraints(unknowns, result);
-    for (const auto index : relevant)
+    Constraints result = space.hanging_nodes();
+    for (const auto index : space.relevant)
       if (is_held(held, index) && !result.is_constrained(index))
         {
           result.add_line(index);
           if (moving)
-            result.set_inhomogeneity(index, held.get_inhomogeneity(index) - displacement(index));
+            result.set_inhomogeneity(index, held.get_inhomogeneity(index) - fields.displacement(index));
         }
     result.close();
     return result;
@@ -76,10 +62,10 @@ namespace perideal
   template <int dim>
   void HyperelasticFem<dim>::for_each_cell(const Visit &visit) const
   {
-    const unsigned int                           n = element.n_dofs_per_cell();
+    const unsigned int                           n = space.element.n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> indices(n);
     dealii::Vector<double>                       values(n);
-    for (const Cell &cell : unknowns.active_cell_iterators())
+    for (const Cell &cell : space.unknowns.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const auto law = laws.find(cell->material_id());
@@ -87,7 +73,7 @@ namespace perideal
           AssertThrow(law != laws.end(),
                       dealii::ExcMessage("no law for material id " + std::to_string(cell->material_id())));
           cell->get_dof_indices(indices);
-          cell->get_dof_values(displacement, values);
+          cell->get_dof_values(fields.displacement, values);
           visit(cell, *law->second, indices, values);
         }
   }
@@ -95,64 +81,65 @@ namespace perideal
   template <int dim>
   void HyperelasticFem<dim>::make_external_force(const double time)
   {
-    external.reinit(unknowns.get_triangulation(), geometry, time);
-    CellIntegrals<dim>     integrals(geometry, element, thickness);
-    dealii::Vector<double> forces(element.n_dofs_per_cell());
-    external_force = 0.;
+    external.reinit(space.unknowns.get_triangulation(), space.geometry, time);
+    CellIntegrals<dim>     integrals(space.geometry, space.element, thickness);
+    dealii::Vector<double> forces(space.element.n_dofs_per_cell());
+    fields.external_force = 0.;
     for_each_cell([&](const Cell &cell, const auto &, const auto &indices, const auto &) {
       forces = 0.;
       external.add(cell, integrals, forces);
-      hanging.distribute_local_to_global(forces, indices, external_force);
+      hanging.distribute_local_to_global(forces, indices, fields.external_force);
     });
-    external_force.compress(dealii::VectorOperation::add);
+    fields.external_force.compress(dealii::VectorOperation::add);
   }
 
   template <int dim>
   void HyperelasticFem<dim>::compute_balance()
   {
-    FiniteStrainIntegrals<dim> integrals(geometry, element, thickness);
-    dealii::Vector<double>     forces(element.n_dofs_per_cell());
-    balance = 0.;
+    FiniteStrainIntegrals<dim> integrals(space.geometry, space.element, thickness);
+    dealii::Vector<double>     forces(space.element.n_dofs_per_cell());
+    fields.balance = 0.;
     for_each_cell([&](const Cell &cell, const auto &law, const auto &indices, const auto &values) {
       integrals.reinit(cell, values);
       forces = 0.;
       integrals.subtract_forces(law, forces);
-      hanging.distribute_local_to_global(forces, indices, balance);
+      hanging.distribute_local_to_global(forces, indices, fields.balance);
     });
-    balance.compress(dealii::VectorOperation::add);
-    balance += external_force;
+    fields.balance.compress(dealii::VectorOperation::add);
+    fields.balance += fields.external_force;
   }
 
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   HyperelasticFem<dim>::evaluate(const std::vector<dealii::Point<dim>> &points) const
   {
-    return PointEvaluation<dim>(geometry, unknowns, displacement).evaluate(points);
+    return PointEvaluation<dim>(space.geometry, space.unknowns, fields.displacement).evaluate(points);
   }
 
   template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   HyperelasticFem<dim>::evaluate_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const
   {
-    return perideal::evaluate_in_cells<dim>(geometry, unknowns, displacement, point_of_cell);
+    return perideal::evaluate_in_cells<dim>(
+      space.geometry, space.unknowns, fields.displacement, point_of_cell);
   }
 
   template <int dim>
   dealii::Tensor<1, dim> HyperelasticFem<dim>::reaction(const dealii::types::boundary_id boundary) const
   {
-    return -sum_of_held(unknowns, held, balance, boundary);
+    return -sum_of_held(space.unknowns, held, fields.balance, boundary);
   }
 
   template <int dim>
   double HyperelasticFem<dim>::strain_energy() const
   {
-    FiniteStrainIntegrals<dim> integrals(geometry, element, thickness);
+    FiniteStrainIntegrals<dim> integrals(space.geometry, space.element, thickness);
     double                     result = 0;
     for_each_cell([&](const Cell &cell, const auto &law, const auto &, const auto &values) {
       integrals.reinit(cell, values);
       result += integrals.energy(law);
     });
-    return dealii::Utilities::MPI::sum(result, unknowns.get_communicator());
+    return dealii::Utilities::MPI::sum(result, space.unknowns.get_communicator());
   }
 
   PERIDEAL_INSTANTIATE_CLASS(HyperelasticFem)

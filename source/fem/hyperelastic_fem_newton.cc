@@ -21,8 +21,8 @@ namespace perideal
   template <int dim>
   NodalVector HyperelasticFem<dim>::residual() const
   {
-    NodalVector result(balance);
-    for (const auto index : unknowns.locally_owned_dofs())
+    NodalVector result(fields.balance);
+    for (const auto index : space.unknowns.locally_owned_dofs())
       if (held.is_constrained(index))
         result(index) = 0.;
     return result;
@@ -32,16 +32,16 @@ namespace perideal
   typename HyperelasticFem<dim>::Norms HyperelasticFem<dim>::measure()
   {
     const NodalVector free  = residual();
-    NodalVector       bound = balance;
+    NodalVector       bound = fields.balance;
     bound -= free;
-    return {free.l2_norm(), std::max({bound.l2_norm(), external_force.l2_norm(), largest_load})};
+    return {free.l2_norm(), std::max({bound.l2_norm(), fields.external_force.l2_norm(), path.largest_load})};
   }
 
   template <int dim>
   void HyperelasticFem<dim>::assemble_tangent(const Constraints &increments, NodalVector &right_hand_side)
   {
-    const unsigned int         n = element.n_dofs_per_cell();
-    FiniteStrainIntegrals<dim> integrals(geometry, element, thickness);
+    const unsigned int         n = space.element.n_dofs_per_cell();
+    FiniteStrainIntegrals<dim> integrals(space.geometry, space.element, thickness);
     dealii::FullMatrix<double> matrix(n, n);
     dealii::Vector<double>     nothing(n);
     stiffness       = 0.;
@@ -56,10 +56,11 @@ namespace perideal
 
     // A displacement is rounded by eps |u|, and every force by what the stiffness makes of that.
     double squares = 0;
-    for (const auto index : unknowns.locally_owned_dofs())
+    for (const auto index : space.unknowns.locally_owned_dofs())
       squares += std::pow(stiffness.diag_element(index), 2);
-    squares  = dealii::Utilities::MPI::sum(squares, unknowns.get_communicator());
-    rounding = std::numeric_limits<double>::epsilon() * displacement.linfty_norm() * std::sqrt(squares);
+    squares = dealii::Utilities::MPI::sum(squares, space.unknowns.get_communicator());
+    path.rounding =
+      std::numeric_limits<double>::epsilon() * fields.displacement.linfty_norm() * std::sqrt(squares);
   }
 
   template <int dim>
@@ -68,19 +69,19 @@ namespace perideal
   {
     const unsigned int    largest_number_of_iterations = 300;
     dealii::SolverControl control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
-    correction = 0.;
+    fields.correction = 0.;
     try
       {
-        const AlgebraicMultigrid<dim> multigrid(geometry, unknowns, held, stiffness, true);
+        const AlgebraicMultigrid<dim> multigrid(space.geometry, space.unknowns, held, stiffness, true);
         dealii::SolverCG<NodalVector> cg(control);
-        cg.solve(stiffness, correction, right_hand_side, multigrid);
+        cg.solve(stiffness, fields.correction, right_hand_side, multigrid);
         step.linear_iterations += control.last_step();
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
         // The tangent of a body near a limit of stability is not positive definite.
         dealii::TrilinosWrappers::SolverDirect direct(control);
-        direct.solve(stiffness, correction, right_hand_side);
+        direct.solve(stiffness, fields.correction, right_hand_side);
         ++step.linear_iterations;
       }
   }
@@ -91,25 +92,25 @@ namespace perideal
     const unsigned int max_trials = 20;
     // Share of the slope at the start by which a step may go too far.
     const double      overshoot = 0.5;
-    const NodalVector start     = displacement;
-    const double      slope     = correction * balance;
+    const NodalVector start     = fields.displacement;
+    const double      slope     = fields.correction * fields.balance;
     double            share     = 1.;
     for (unsigned int trial = 0; trial < max_trials; ++trial)
       {
-        displacement = start;
-        displacement.add(share, correction);
-        displacement.update_ghost_values();
+        fields.displacement = start;
+        fields.displacement.add(share, fields.correction);
+        fields.displacement.update_ghost_values();
         compute_balance();
-        const double now = residual().l2_norm(), slope_now = correction * residual();
+        const double now = residual().l2_norm(), slope_now = fields.correction * residual();
         const bool   is_finite = std::isfinite(now);
-        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= rounding ||
+        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= path.rounding ||
                           (slope > 0 && slope_now >= -overshoot * slope)))
           return true;
         // Towards where the slope vanishes.
         share *= is_finite && slope > 0 ? std::max(slope / (slope - slope_now), 0.1) : 0.25;
       }
-    displacement = start;
-    displacement.update_ghost_values();
+    fields.displacement = start;
+    fields.displacement.update_ghost_values();
     compute_balance();
     return false;
   }
@@ -118,7 +119,7 @@ namespace perideal
   std::string HyperelasticFem<dim>::iterate(const bool moving, const Norms &norms, Step &step)
   {
     const Constraints constraints = increments(moving);
-    NodalVector       right_hand_side(balance);
+    NodalVector       right_hand_side(fields.balance);
     assemble_tangent(constraints, right_hand_side);
     right_hand_side += residual();
 
@@ -128,13 +129,13 @@ namespace perideal
     const double tolerance =
       std::max({std::min(1e-3, 0.1 * relative), 0.1 * controls.tolerance / relative, 1e-12});
     solve_linear(right_hand_side, std::min(tolerance, 0.5), step);
-    constraints.distribute(correction);
+    constraints.distribute(fields.correction);
     if (!moving)
       return search(norm) ? "" : "no part of a step lowers the residual";
-    displacement += correction;
-    displacement.update_ghost_values();
+    fields.displacement += fields.correction;
+    fields.displacement.update_ghost_values();
     compute_balance();
-    return std::isfinite(balance.l2_norm()) ? "" : "the prescribed displacements fold the body";
+    return std::isfinite(fields.balance.l2_norm()) ? "" : "the prescribed displacements fold the body";
   }
 
   template <int dim>
@@ -144,14 +145,14 @@ namespace perideal
     make_external_force(time);
     compute_balance();
     double distance = 0;
-    for (const auto index : unknowns.locally_owned_dofs())
+    for (const auto index : space.unknowns.locally_owned_dofs())
       if (is_held(held, index))
-        distance = std::max(distance, std::abs(held.get_inhomogeneity(index) - displacement(index)));
-    bool moving = dealii::Utilities::MPI::max(distance, unknowns.get_communicator()) > 0;
+        distance = std::max(distance, std::abs(held.get_inhomogeneity(index) - fields.displacement(index)));
+    bool moving = dealii::Utilities::MPI::max(distance, space.unknowns.get_communicator()) > 0;
 
     Norms norms = measure();
     for (unsigned int iteration = 0;
-         moving || norms.residual > std::max(controls.tolerance * norms.reference, rounding);
+         moving || norms.residual > std::max(controls.tolerance * norms.reference, path.rounding);
          ++iteration)
       {
         if (iteration == controls.max_iterations)
@@ -164,7 +165,7 @@ namespace perideal
         norms         = measure();
         step.residual = norms.reference > 0 ? norms.residual / norms.reference : 0.;
       }
-    largest_load = norms.reference;
+    path.largest_load = norms.reference;
     return "";
   }
 
@@ -172,24 +173,24 @@ namespace perideal
   typename HyperelasticFem<dim>::Step HyperelasticFem<dim>::solve_step(const double time)
   {
     Step        step;
-    NodalVector start = displacement;
-    for (double part = time - last_time;;)
+    NodalVector start = fields.displacement;
+    for (double part = time - path.time;;)
       {
-        const double      next    = last_time + part > time - 1e-3 * part ? time : last_time + part;
+        const double      next    = path.time + part > time - 1e-3 * part ? time : path.time + part;
         const std::string problem = find_equilibrium(next, step);
         if (problem.empty())
           {
-            last_time = next;
+            path.time = next;
             if (next == time)
               return step;
-            start = displacement;
+            start = fields.displacement;
           }
         else if (step.halvings < controls.halvings)
           {
             ++step.halvings;
             part *= 0.5;
-            displacement = start;
-            displacement.update_ghost_values();
+            fields.displacement = start;
+            fields.displacement.update_ghost_values();
           }
         else
           {

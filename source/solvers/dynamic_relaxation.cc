@@ -67,7 +67,7 @@ namespace perideal
     checkpoint.put("mass", mass);
     checkpoint.put("increment", this->increment);
     checkpoint.header["last interval"] = last_interval;
-    checkpoint.header["broke in step"] = this->broke_in_step;
+    checkpoint.header["broke in step"] = this->breaks.in_step;
   }
 
   template <int dim>
@@ -77,15 +77,15 @@ namespace perideal
     EquilibriumPath<dim>::resume(checkpoint, external, time);
     checkpoint.take("mass", mass);
     checkpoint.take("increment", this->increment);
-    last_time           = time;
-    last_interval       = checkpoint.header.at("last interval").template get<double>();
-    this->broke_in_step = checkpoint.header.at("broke in step").template get<bool>();
+    last_time            = time;
+    last_interval        = checkpoint.header.at("last interval").template get<double>();
+    this->breaks.in_step = checkpoint.header.at("broke in step").template get<bool>();
   }
 
   template <int dim>
   void DynamicRelaxation<dim>::start_step(const double time)
   {
-    if (!this->broke_in_step && last_interval > 0)
+    if (!this->breaks.in_step && last_interval > 0)
       displacement.add((time - last_time) / last_interval, this->increment);
     held.set_boundary_values(this->loads, time, displacement);
     last_interval = time - last_time;
@@ -164,7 +164,7 @@ namespace perideal
         return;
       }
     // Changes that rounding makes say nothing.
-    if (sums.v_K_v > 4 * sums.v_M_v && sums.change > 4 * this->rounding * this->rounding)
+    if (sums.v_K_v > 4 * sums.v_M_v && sums.change > 4 * this->rounding.force * this->rounding.force)
       mass *= std::min(2., 1.1 * sums.v_K_v / (4 * sums.v_M_v));
     ++since_anchor;
     const double omega = sums.d_K_d > 0 ? std::sqrt(sums.d_K_d / sums.d_M_d) : 0.;

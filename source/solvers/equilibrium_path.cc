@@ -32,22 +32,22 @@ namespace perideal
   {
     if (face_values != nullptr)
       {
-        face_support_force.resize(face_values->entries().size());
-        last_face_value.resize(face_values->entries().size());
+        last.face_support_force.resize(face_values->entries().size());
+        last.face_value.resize(face_values->entries().size());
       }
     for (NodalVector *vector : {&displacement,
                                 &force,
                                 &earlier_force,
                                 &increment,
-                                &last_displacement,
-                                &last_external,
-                                &support_force})
+                                &last.displacement,
+                                &last.external,
+                                &last.support_force})
       bonds.initialize(*vector);
     bonds.judge_bonds(false);
     const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
-        rest_position.push_back(nodes.position[i][d]);
+        rounding.rest_position.push_back(nodes.position[i][d]);
   }
 
   template <int dim>
@@ -55,8 +55,8 @@ namespace perideal
   EquilibriumPath<dim>::step(const NodalVector &external, const double time, const Progress &progress)
   {
     start_step(time);
-    increment     = 0.;
-    broke_in_step = false;
+    increment      = 0.;
+    breaks.in_step = false;
     EquilibriumStep result;
     unsigned int    since_break = 0;
     bool            judged      = !controls.bonds_break;
@@ -64,7 +64,7 @@ namespace perideal
     while (true)
       {
         const Norms  norms     = measure(external);
-        const double reference = std::sqrt(std::max({norms.reaction, norms.load, largest_load}));
+        const double reference = std::sqrt(std::max({norms.reaction, norms.load, last.largest_load}));
         const double residual  = std::sqrt(norms.residual);
         result.residuals.push_back(reference > 0 ? residual / reference : (residual > 0 ? 1. : 0.));
         progress(result.iterations, result.residuals.back());
@@ -72,8 +72,9 @@ namespace perideal
           require_finite(reference + residual, "the residual before the first iteration");
         if (!is_finite(reference + residual))
           return result;
-        const bool at_rest = is_in_place() && residual <= std::max(controls.tolerance * reference, rounding);
-        const bool nearly  = is_in_place() && !judged && residual <= judge_tolerance * reference;
+        const bool at_rest =
+          is_in_place() && residual <= std::max(controls.tolerance * reference, rounding.force);
+        const bool nearly = is_in_place() && !judged && residual <= judge_tolerance * reference;
         if (controls.bonds_break && (at_rest || nearly))
           {
             const GlobalIndex now = break_bonds(external);
@@ -81,14 +82,14 @@ namespace perideal
             judged = now == 0;
             if (now > 0)
               {
-                largest_load = std::max({largest_load, norms.reaction, norms.load});
-                since_break  = 0;
+                last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
+                since_break       = 0;
                 continue;
               }
           }
         if (at_rest)
           {
-            largest_load = std::max({largest_load, norms.reaction, norms.load});
+            last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
             balance(external, force, bonds.strain_energy());
             result.converged = true;
             return result;
@@ -107,13 +108,14 @@ namespace perideal
   {
     // Forces that stay were measured to be twice eps |y| times the masses of dynamic relaxation at most.
     double sum = 0;
-    for (std::size_t k = 0; k < rest_position.size(); ++k)
+    for (std::size_t k = 0; k < rounding.rest_position.size(); ++k)
       {
-        const double y = stiffness.local_element(k) * (rest_position[k] + displacement.local_element(k));
+        const double y =
+          stiffness.local_element(k) * (rounding.rest_position[k] + displacement.local_element(k));
         sum += y * y;
       }
-    sum      = dealii::Utilities::MPI::sum(sum, displacement.get_mpi_communicator());
-    rounding = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+    sum            = dealii::Utilities::MPI::sum(sum, displacement.get_mpi_communicator());
+    rounding.force = 2 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
   }
 
   template <int dim>
@@ -126,32 +128,32 @@ namespace perideal
   template <int dim>
   void EquilibriumPath<dim>::restore()
   {
-    displacement = last_displacement;
+    displacement = last.displacement;
     if (face_values != nullptr)
-      face_values->set_values(last_face_value);
+      face_values->set_values(last.face_value);
   }
 
   template <int dim>
   void EquilibriumPath<dim>::save(Checkpoint &checkpoint) const
   {
     checkpoint.put("displacement", displacement);
-    checkpoint.header["broken bonds"] = broken;
-    checkpoint.header["equilibrium"]  = {{"strain", budget.strain},
-                                         {"dissipated", budget.dissipated},
-                                         {"external", budget.external},
-                                         {"largest load", largest_load}};
+    checkpoint.header["broken bonds"] = breaks.total;
+    checkpoint.header["equilibrium"]  = {{"strain", last.energy.strain},
+                                         {"dissipated", last.energy.dissipated},
+                                         {"external", last.energy.external},
+                                         {"largest load", last.largest_load}};
   }
 
   template <int dim>
   void
   EquilibriumPath<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
   {
-    const auto &state = checkpoint.header.at("equilibrium");
-    broken            = checkpoint.header.at("broken bonds").template get<GlobalIndex>();
-    budget.strain     = state.at("strain").template get<double>();
-    budget.dissipated = state.at("dissipated").template get<double>();
-    budget.external   = state.at("external").template get<double>();
-    largest_load      = state.at("largest load").template get<double>();
+    const auto &state      = checkpoint.header.at("equilibrium");
+    breaks.total           = checkpoint.header.at("broken bonds").template get<GlobalIndex>();
+    last.energy.strain     = state.at("strain").template get<double>();
+    last.energy.dissipated = state.at("dissipated").template get<double>();
+    last.energy.external   = state.at("external").template get<double>();
+    last.largest_load      = state.at("largest load").template get<double>();
     checkpoint.take("displacement", displacement);
     if (face_values != nullptr)
       face_values->set_time(loads, time);
@@ -182,8 +184,8 @@ namespace perideal
     NodalVector no_velocity(force);
     no_velocity = 0.;
     balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
-    broken += now;
-    broke_in_step = broke_in_segment = true;
+    breaks.total += now;
+    breaks.in_step = breaks.in_segment = true;
     return now;
   }
 
@@ -196,20 +198,21 @@ namespace perideal
     for (std::size_t k = 0; k < held.mask().size(); ++k)
       {
         const double p = external.local_element(k), support = support_at(k, external, internal);
-        const double moved = displacement.local_element(k) - last_displacement.local_element(k);
-        work += 0.5 * (p + support + last_external.local_element(k) + support_force.local_element(k)) * moved;
+        const double moved = displacement.local_element(k) - last.displacement.local_element(k);
+        work +=
+          0.5 * (p + support + last.external.local_element(k) + last.support_force.local_element(k)) * moved;
         increment.local_element(k) += moved;
       }
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
-      work += 0.5 * ((at_faces[e] + face_support_force[e]) *
-                     (face_values->entries()[e].value - last_face_value[e]));
+      work += 0.5 * ((at_faces[e] + last.face_support_force[e]) *
+                     (face_values->entries()[e].value - last.face_value[e]));
     work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
-    budget.external += work;
-    if (broke_in_segment)
-      budget.dissipated += work - (strain_energy - budget.strain);
-    budget.strain    = strain_energy;
-    broke_in_segment = false;
+    last.energy.external += work;
+    if (breaks.in_segment)
+      last.energy.dissipated += work - (strain_energy - last.energy.strain);
+    last.energy.strain = strain_energy;
+    breaks.in_segment  = false;
     keep(external, internal);
   }
 
@@ -217,15 +220,15 @@ namespace perideal
   void EquilibriumPath<dim>::keep(const NodalVector &external, const NodalVector &internal)
   {
     for (std::size_t k = 0; k < held.mask().size(); ++k)
-      support_force.local_element(k) = support_at(k, external, internal);
+      last.support_force.local_element(k) = support_at(k, external, internal);
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
       {
-        face_support_force[e] = at_faces[e];
-        last_face_value[e]    = face_values->entries()[e].value;
+        last.face_support_force[e] = at_faces[e];
+        last.face_value[e]         = face_values->entries()[e].value;
       }
-    last_displacement = displacement;
-    last_external     = external;
+    last.displacement = displacement;
+    last.external     = external;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(EquilibriumPath)

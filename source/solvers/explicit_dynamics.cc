@@ -18,80 +18,80 @@ namespace perideal
     , held(held)
     , loads(loads)
     , mass(mass)
-    , damping(damping)
-    , time_step(time_step)
-    , start(start)
+    , scheme{damping, time_step, start}
   {
-    for (NodalVector *vector : {&displacement, &velocity, &force, &earlier_velocity, &support_force})
+    for (NodalVector *vector :
+         {&displacement, &velocity, &work.force, &work.earlier_velocity, &work.support_force})
       bonds.initialize(*vector);
   }
 
   template <int dim>
-  void ExplicitDynamics<dim>::set_relative_damping(RelativeDamping<dim> *damping)
+  void ExplicitDynamics<dim>::set_relative_damping(RelativeDamping<dim> *relative)
   {
-    relative_damping = damping;
-    bonds.initialize(relative_drag);
+    added.damping = relative;
+    bonds.initialize(work.relative_drag);
   }
 
   template <int dim>
   void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
   {
-    bonds.compute(force, displacement);
-    newly_broken = bonds.n_broken_now();
-    broken += newly_broken;
-    if (contact)
-      contact->add(force, bonds);
-    if (n_steps == 0 && start == Start::velocity_verlet)
+    bonds.compute(work.force, displacement);
+    breaks.now = bonds.n_broken_now();
+    breaks.total += breaks.now;
+    if (added.contact)
+      added.contact->add(work.force, bonds);
+    if (n_steps == 0 && scheme.start == Start::velocity_verlet)
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
         velocity.local_element(k) -=
-          0.5 * time_step * (force.local_element(k) + external.local_element(k)) / mass[k / dim];
-    if (newly_broken > 0)
-      dissipated += bonds.released_energy(velocity, time_step);
+          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
+    if (breaks.now > 0)
+      breaks.energy += bonds.released_energy(velocity, scheme.time_step);
 
-    earlier_velocity.swap(velocity);
-    if (relative_damping)
-      relative_damping->compute(relative_drag, earlier_velocity, bonds);
-    held.set_velocities(loads, time(), time_step, displacement, velocity);
+    work.earlier_velocity.swap(velocity);
+    if (added.damping)
+      added.damping->compute(work.relative_drag, work.earlier_velocity, bonds);
+    held.set_velocities(loads, time(), scheme.time_step, displacement, velocity);
     const std::uint8_t *is_held = held.mask().data();
-    const double       *f = force.begin(), *p = external.begin(), *before = earlier_velocity.begin();
-    const double       *relative = relative_damping ? relative_drag.begin() : nullptr;
-    double             *after = velocity.begin(), *support = support_force.begin();
+    const double *f = work.force.begin(), *p = external.begin(), *before = work.earlier_velocity.begin();
+    const double *relative = added.damping ? work.relative_drag.begin() : nullptr;
+    double       *after = velocity.begin(), *support = work.support_force.begin();
     // Twice the work that the forces do in the halves of a step before and after the present time.
     double kinetic_sum = 0, work_before = 0, work_after = 0, damped_before = 0, damped_after = 0;
     for (std::size_t i = 0; i < mass.size(); ++i)
       for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
         {
-          const double drag = damping * mass[i] * before[k] - (relative ? relative[k] : 0.);
+          const double drag = scheme.damping * mass[i] * before[k] - (relative ? relative[k] : 0.);
           const double free = f[k] + p[k] - drag;
           if (is_held[k])
-            support[k] = mass[i] * (after[k] - before[k]) / time_step - free;
+            support[k] = mass[i] * (after[k] - before[k]) / scheme.time_step - free;
           else
-            after[k] = before[k] + time_step * free / mass[i];
+            after[k] = before[k] + scheme.time_step * free / mass[i];
           kinetic_sum += mass[i] * before[k] * after[k];
           work_before += (p[k] + support[k]) * before[k];
           work_after += (p[k] + support[k]) * after[k];
           damped_before += drag * before[k];
           damped_after += drag * after[k];
         }
-    kinetic = 0.5 * kinetic_sum;
+    own.kinetic = 0.5 * kinetic_sum;
     // At the beginning the initial motion is there: what it holds counts as put in.
-    external_work += n_steps == 0 ? kinetic : next_external_work + 0.5 * time_step * work_before;
-    damped += n_steps == 0 ? 0. : next_damped + 0.5 * time_step * damped_before;
-    next_external_work = 0.5 * time_step * work_after;
-    next_damped        = 0.5 * time_step * damped_after;
+    own.external_work +=
+      n_steps == 0 ? own.kinetic : own.next_external_work + 0.5 * scheme.time_step * work_before;
+    own.damped += n_steps == 0 ? 0. : own.next_damped + 0.5 * scheme.time_step * damped_before;
+    own.next_external_work = 0.5 * scheme.time_step * work_after;
+    own.next_damped        = 0.5 * scheme.time_step * damped_after;
   }
 
   template <int dim>
   void ExplicitDynamics<dim>::advance()
   {
-    displacement.add(time_step, velocity);
+    displacement.add(scheme.time_step, velocity);
     ++n_steps;
   }
 
   template <int dim>
   std::vector<double> ExplicitDynamics<dim>::energy_shares() const
   {
-    return {damped, external_work, next_damped, next_external_work};
+    return {own.damped, own.external_work, own.next_damped, own.next_external_work};
   }
 
   template <int dim>
@@ -101,13 +101,13 @@ namespace perideal
                                      const std::vector<double> &energy_shares)
   {
     AssertDimension(energy_shares.size(), 4);
-    n_steps            = step;
-    broken             = n_broken;
-    dissipated         = dissipated_energy;
-    damped             = energy_shares[0];
-    external_work      = energy_shares[1];
-    next_damped        = energy_shares[2];
-    next_external_work = energy_shares[3];
+    n_steps                = step;
+    breaks.total           = n_broken;
+    breaks.energy          = dissipated_energy;
+    own.damped             = energy_shares[0];
+    own.external_work      = energy_shares[1];
+    own.next_damped        = energy_shares[2];
+    own.next_external_work = energy_shares[3];
   }
 
   template <int dim>
@@ -116,12 +116,12 @@ namespace perideal
     const MPI_Comm communicator = displacement.get_mpi_communicator();
     using dealii::Utilities::MPI::sum;
     EnergyBudget result;
-    result.kinetic    = sum(kinetic, communicator);
+    result.kinetic    = sum(own.kinetic, communicator);
     result.strain     = bonds.strain_energy();
-    result.contact    = contact ? contact->energy() : 0.;
-    result.dissipated = dissipated;
-    result.damped     = sum(damped, communicator);
-    result.external   = sum(external_work, communicator);
+    result.contact    = added.contact ? added.contact->energy() : 0.;
+    result.dissipated = breaks.energy;
+    result.damped     = sum(own.damped, communicator);
+    result.external   = sum(own.external_work, communicator);
     return result;
   }
 

@@ -36,9 +36,9 @@ namespace perideal
     , system(system)
     , linear(linear)
     , null_space(null_space)
-    , find_floating(find_floating)
+    , anchors{find_floating, {}, 0}
   {
-    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness, &anchor_place})
+    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness, &anchors.place})
       bonds.initialize(*vector);
     system.initialize(residual);
     system.initialize(correction);
@@ -54,12 +54,12 @@ namespace perideal
   template <int dim>
   void NewtonSolver<dim>::anchor()
   {
-    if (!find_floating)
+    if (!anchors.find_floating)
       return;
-    const std::vector<bool> floats = find_floating();
+    const std::vector<bool> floats = anchors.find_floating();
     const auto              count  = static_cast<GlobalIndex>(std::count(floats.begin(), floats.end(), true));
-    n_anchored                     = dealii::Utilities::MPI::sum(count, displacement.get_mpi_communicator());
-    if (n_anchored == 0)
+    anchors.n_nodes                = dealii::Utilities::MPI::sum(count, displacement.get_mpi_communicator());
+    if (anchors.n_nodes == 0)
       return;
     std::vector<double> springs = system.anchor_stiffness();
     springs.resize(dim * system.n_nodes(), 0.);
@@ -67,8 +67,8 @@ namespace perideal
       for (LocalIndex k = dim * i; k < dim * (i + 1); ++k)
         if (floats[i] && springs[k] == 0.)
           {
-            springs[k]                    = anchor_share * rest_stiffness.local_element(k);
-            anchor_place.local_element(k) = displacement.local_element(k);
+            springs[k]                     = anchor_share * rest_stiffness.local_element(k);
+            anchors.place.local_element(k) = displacement.local_element(k);
           }
     system.set_anchors(springs);
   }
@@ -77,25 +77,25 @@ namespace perideal
   void NewtonSolver<dim>::save(Checkpoint &checkpoint) const
   {
     EquilibriumPath<dim>::save(checkpoint);
-    checkpoint.header["floating nodes"] = n_anchored;
+    checkpoint.header["floating nodes"] = anchors.n_nodes;
     checkpoint.header["linear solver"]  = linear.save();
-    if (n_anchored == 0)
+    if (anchors.n_nodes == 0)
       return;
     checkpoint.put("spring stiffness", system.anchor_stiffness());
-    checkpoint.put("spring place", anchor_place);
+    checkpoint.put("spring place", anchors.place);
   }
 
   template <int dim>
   void NewtonSolver<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
   {
     EquilibriumPath<dim>::resume(checkpoint, external, time);
-    n_anchored = checkpoint.header.at("floating nodes").template get<GlobalIndex>();
+    anchors.n_nodes = checkpoint.header.at("floating nodes").template get<GlobalIndex>();
     linear.resume(checkpoint.header.at("linear solver"));
-    if (n_anchored == 0)
+    if (anchors.n_nodes == 0)
       return;
     std::vector<double> springs(dim * system.n_nodes());
     checkpoint.take("spring stiffness", springs);
-    checkpoint.take("spring place", anchor_place);
+    checkpoint.take("spring place", anchors.place);
     system.set_anchors(springs);
   }
 
@@ -127,7 +127,7 @@ namespace perideal
     for (std::size_t k = 0; k < springs.size(); ++k)
       if (!is_held[k])
         residual.local_element(k) -=
-          springs[k] * (displacement.local_element(k) - anchor_place.local_element(k));
+          springs[k] * (displacement.local_element(k) - anchors.place.local_element(k));
     null_space.project(residual);
   }
 
@@ -164,7 +164,7 @@ namespace perideal
   template <int dim>
   double NewtonSolver<dim>::relative_tolerance() const
   {
-    const double reference = std::max({norms.reaction, norms.load, this->largest_load});
+    const double reference = std::max({norms.reaction, norms.load, this->last.largest_load});
     const double relative  = reference > 0 ? std::sqrt(norms.residual / reference) : 1.;
     return std::max({std::min(1e-3, 0.1 * relative), 0.1 * this->controls.tolerance / relative, 1e-12});
   }
@@ -212,7 +212,7 @@ namespace perideal
         compute_residual(external);
         const double now = residual.l2_norm(), slope_now = correction * residual;
         const bool   is_finite = std::isfinite(now) && std::isfinite(slope_now);
-        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= this->rounding ||
+        if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= this->rounding.force ||
                           (slope > 0 && std::abs(slope_now) <= slope_left * slope)))
           return true;
         if (!is_finite || slope <= 0)

@@ -4,16 +4,11 @@
 
 #include <perideal/base/types.h>
 #include <perideal/fem/cell_integrals.h>
+#include <perideal/fem/displacement_space.h>
 #include <perideal/fem/external_forces.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/load_parameters.h>
-
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
-#include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <map>
 #include <memory>
@@ -92,16 +87,16 @@ namespace perideal
     /// Active cells of all ranks.
     dealii::types::global_cell_index n_cells() const;
     /// Unknowns of all ranks.
-    dealii::types::global_dof_index n_dofs() const { return unknowns.n_dofs(); }
+    dealii::types::global_dof_index n_dofs() const { return space.unknowns.n_dofs(); }
     /// Components pinned to zero because nothing holds the body there.
-    unsigned int n_pins() const { return pins; }
+    unsigned int n_pins() const { return assembled.pins; }
 
     /// The mesh given to the constructor, and whether the elements are its cells.
     const Mesh<dim> &mesh() const { return body; }
     bool             is_on_mesh_itself() const { return own_cells == nullptr; }
 
-    const dealii::MappingQ<dim>                  &mapping() const { return geometry; }
-    const dealii::DoFHandler<dim>                &dof_handler() const { return unknowns; }
+    const dealii::MappingQ<dim>                  &mapping() const { return space.geometry; }
+    const dealii::DoFHandler<dim>                &dof_handler() const { return space.unknowns; }
     const dealii::AffineConstraints<double>      &constraints() const { return held; }
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return stiffness; }
     /// Displacement, constraints distributed, ghosts up to date.
@@ -116,9 +111,6 @@ namespace perideal
                const unsigned int                                degree,
                std::shared_ptr<const dealii::Triangulation<dim>> cells);
 
-    void make_constraints();
-    void make_sparsity();
-
     /// Stiffness matrix [N/m] and nodal forces [N] of one cell, nothing held.
     void cell_system(const Cell                 &cell,
                      CellIntegrals<dim>         &integrals,
@@ -131,10 +123,7 @@ namespace perideal
 
     /// The cells, where they are not those of the mesh itself.
     std::shared_ptr<const dealii::Triangulation<dim>> own_cells;
-    dealii::MappingQ<dim>                             geometry;
-    dealii::FESystem<dim>                             element;
-    dealii::DoFHandler<dim>                           unknowns;
-    dealii::IndexSet                                  relevant;
+    DisplacementSpace<dim>                            space;
     dealii::AffineConstraints<double>                 held;
     dealii::TrilinosWrappers::SparseMatrix            stiffness;
     NodalVector                                       right_hand_side, displacement;
@@ -142,10 +131,14 @@ namespace perideal
     std::unique_ptr<AlgebraicMultigrid<dim>>  algebraic_multigrid;
     std::unique_ptr<PolynomialMultigrid<dim>> polynomial_multigrid;
 
-    /// As of the last assembly.
-    SolidsByMaterial<dim> solids;
-    double                time = 0;
-    unsigned int          pins = 0;
+    /// What the last assembly was of, and how many components it pinned.
+    struct Assembly
+    {
+      SolidsByMaterial<dim> solids;
+      double                time = 0;
+      unsigned int          pins = 0;
+    };
+    Assembly assembled;
   };
 } // namespace perideal
 

@@ -3,17 +3,12 @@
 #define perideal_fem_hyperelastic_fem_h
 
 #include <perideal/base/types.h>
+#include <perideal/fem/displacement_space.h>
 #include <perideal/fem/external_forces.h>
 #include <perideal/fem/finite_strain_integrals.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/parameters/hyperelastic_law.h>
 #include <perideal/parameters/load_parameters.h>
-
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
-#include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <functional>
 #include <string>
@@ -85,7 +80,7 @@ namespace perideal
     double strain_energy() const;
 
     /// Unknowns of all ranks.
-    dealii::types::global_dof_index n_dofs() const { return unknowns.n_dofs(); }
+    dealii::types::global_dof_index n_dofs() const { return space.unknowns.n_dofs(); }
 
   private:
     using Cell        = typename dealii::DoFHandler<dim>::active_cell_iterator;
@@ -132,17 +127,23 @@ namespace perideal
     const double              thickness;
     ExternalForces<dim>       external;
 
-    dealii::MappingQ<dim>                  geometry;
-    dealii::FESystem<dim>                  element;
-    dealii::DoFHandler<dim>                unknowns;
-    dealii::IndexSet                       relevant;
+    DisplacementSpace<dim>                 space;
     Constraints                            held, hanging;
     dealii::TrilinosWrappers::SparseMatrix stiffness;
-    NodalVector                            displacement, external_force, balance, correction;
-    /// Of the last equilibrium [s].
-    double last_time = 0;
-    /// Of the reactions or loads at an equilibrium so far; of the forces that rounding makes now [N].
-    double largest_load = 0, rounding = 0;
+
+    struct Fields
+    {
+      NodalVector displacement, external_force, balance, correction;
+    };
+    Fields fields;
+
+    /// The time of the last equilibrium [s], the largest norm of reactions or loads at an equilibrium so far,
+    /// and the norm of the forces that rounding makes now [N].
+    struct Path
+    {
+      double time = 0, largest_load = 0, rounding = 0;
+    };
+    Path path;
   };
 } // namespace perideal
 

@@ -82,12 +82,12 @@ namespace perideal
      * rule over all equilibria, those before bonds broke included; dissipated is what came of work and
      * strain energy between a break and the next equilibrium. The rest is the error of the rule.
      */
-    const EnergyBudget &energy() const { return budget; }
+    const EnergyBudget &energy() const { return last.energy; }
     /// Forces of the supports at the last equilibrium [N], zero in free components.
-    const NodalVector &reaction() const { return support_force; }
+    const NodalVector &reaction() const { return last.support_force; }
     /// Those at prescribed values of faces [N], by entry.
-    const std::vector<dealii::Tensor<1, dim>> &face_reaction() const { return face_support_force; }
-    GlobalIndex                                n_broken() const { return broken; }
+    const std::vector<dealii::Tensor<1, dim>> &face_reaction() const { return last.face_support_force; }
+    GlobalIndex                                n_broken() const { return breaks.total; }
     /// Nodes of all ranks that came loose, and are held where they were.
     virtual GlobalIndex n_floating() const { return 0; }
 
@@ -147,13 +147,35 @@ namespace perideal
 
     /// Of the bonds, now and before [N].
     NodalVector force, earlier_force;
-    /// Norm of the forces that rounding the positions makes [N].
-    double rounding = 0;
     /// Motion in this step [m].
     NodalVector increment;
-    bool        broke_in_step = false;
-    /// The square of the largest norm of loads or reactions at an equilibrium [N^2].
-    double largest_load = 0;
+
+    /// The norm of the forces that rounding the positions makes [N], and where these were at rest.
+    struct Rounding
+    {
+      std::vector<double> rest_position;
+      double              force = 0;
+    };
+    Rounding rounding;
+
+    /// Bonds broken since the beginning, and whether some broke in this step, and since the last equilibrium.
+    struct Breaks
+    {
+      GlobalIndex total   = 0;
+      bool        in_step = false, in_segment = false;
+    };
+    Breaks breaks;
+
+    /// The last equilibrium: forces are those of loads and supports [N], the largest load the square of the
+    /// largest norm of loads or reactions at any equilibrium so far [N^2].
+    struct Equilibrium
+    {
+      NodalVector                         displacement, external, support_force;
+      std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
+      EnergyBudget                        energy;
+      double                              largest_load = 0;
+    };
+    Equilibrium last;
 
   private:
     /// Judges the bonds; returns how many broke. Collective.
@@ -169,16 +191,6 @@ namespace perideal
     void keep(const NodalVector &external, const NodalVector &internal);
     /// Work and energies between the last equilibrium and this one.
     void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
-
-    std::vector<double> rest_position;
-    /// At the last equilibrium.
-    NodalVector last_displacement, last_external, support_force;
-    bool        broke_in_segment = false;
-    /// Forces and values at faces at the last equilibrium.
-    std::vector<dealii::Tensor<1, dim>> face_support_force, last_face_value;
-
-    EnergyBudget budget;
-    GlobalIndex  broken = 0;
   };
 } // namespace perideal
 

@@ -55,8 +55,8 @@ namespace perideal
                      const Start                start);
 
     /// Adds contact, or damping of relative velocities; what is added must outlive this object.
-    void set_contact(ContactForce<dim> *force) { contact = force; }
-    void set_relative_damping(RelativeDamping<dim> *damping);
+    void set_contact(ContactForce<dim> *force) { added.contact = force; }
+    void set_relative_damping(RelativeDamping<dim> *relative);
 
     /// Forces, velocities of the next half step and energies at the present time;
     /// to be followed by advance(). Collective.
@@ -76,7 +76,7 @@ namespace perideal
                 const double               dissipated_energy,
                 const std::vector<double> &energy_shares);
 
-    double       time() const { return n_steps * time_step; }
+    double       time() const { return n_steps * scheme.time_step; }
     unsigned int step() const { return n_steps; }
 
     /// Energies at the present time, after evaluate(). Collective.
@@ -84,10 +84,10 @@ namespace perideal
     /// Momentum of the body half a step later, after evaluate() [kg m/s]. Collective.
     dealii::Tensor<1, dim> momentum() const;
     /// Forces of the supports at the present time [N], zero in free components.
-    const NodalVector &reaction() const { return support_force; }
-    GlobalIndex        n_broken() const { return broken; }
-    double             dissipated_energy() const { return dissipated; }
-    GlobalIndex        n_broken_now() const { return newly_broken; }
+    const NodalVector &reaction() const { return work.support_force; }
+    GlobalIndex        n_broken() const { return breaks.total; }
+    double             dissipated_energy() const { return breaks.energy; }
+    GlobalIndex        n_broken_now() const { return breaks.now; }
 
     /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),
     /// half a step after it.
@@ -98,23 +98,46 @@ namespace perideal
     const DirichletNodes<dim> &held;
     const Loads<dim>          &loads;
     const std::vector<double> &mass;
-    const double               damping, time_step;
-    const Start                start;
 
-    ContactForce<dim>    *contact          = nullptr;
-    RelativeDamping<dim> *relative_damping = nullptr;
+    struct Scheme
+    {
+      double damping, time_step;
+      Start  start;
+    };
+    const Scheme scheme;
 
-    NodalVector force, earlier_velocity, support_force;
-    /// Of relative damping; empty without.
-    NodalVector  relative_drag;
+    /// Forces that others add; null without.
+    struct Added
+    {
+      ContactForce<dim>    *contact = nullptr;
+      RelativeDamping<dim> *damping = nullptr;
+    };
+    Added added;
+
+    /// The drag is that of relative damping; empty without.
+    struct Work
+    {
+      NodalVector force, earlier_velocity, support_force, relative_drag;
+    };
+    Work         work;
     unsigned int n_steps = 0;
-    GlobalIndex  broken = 0, newly_broken = 0;
-    /// Of this rank, at the present time.
-    double kinetic = 0, damped = 0, external_work = 0;
-    /// Powers of this rank times half a step that belong to the next interval.
-    double next_damped = 0, next_external_work = 0;
-    /// Of all ranks.
-    double dissipated = 0;
+
+    /// Of all ranks: bonds broken, now and so far, and the energy that they set free.
+    struct Breaks
+    {
+      GlobalIndex total = 0, now = 0;
+      double      energy = 0;
+    };
+    Breaks breaks;
+
+    /// Energies of this rank at the present time, and those powers times half a step that belong to the next
+    /// interval.
+    struct Shares
+    {
+      double kinetic = 0, damped = 0, external_work = 0;
+      double next_damped = 0, next_external_work = 0;
+    };
+    Shares own;
   };
 } // namespace perideal
 

@@ -62,7 +62,7 @@ namespace perideal
     using EquilibriumPath<dim>::displacement;
 
     /// Nodes of all ranks that springs hold.
-    GlobalIndex n_floating() const override { return n_anchored; }
+    GlobalIndex n_floating() const override { return anchors.n_nodes; }
 
     void save(Checkpoint &checkpoint) const override;
     void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time) override;
@@ -89,10 +89,15 @@ namespace perideal
     ConstrainedOperator<dim> &system;
     TangentSolver<dim>       &linear;
     const NullSpace<dim>     &null_space;
-    const FindFloating        find_floating;
-    /// Where the springs are at rest [m].
-    NodalVector anchor_place;
-    GlobalIndex n_anchored = 0;
+
+    /// The springs that hold what came loose: where they are at rest [m], and how many nodes they hold.
+    struct Anchors
+    {
+      FindFloating find_floating;
+      NodalVector  place;
+      GlobalIndex  n_nodes = 0;
+    };
+    Anchors anchors;
 
     /// What held components have still to move.
     NodalVector                          held_increment;

@@ -30,12 +30,12 @@ namespace perideal
     position.resize(families->n_local(), NodeRecord{});
     forces.resize(families->n_local(), NodeRecord{});
 
-    family_volume.assign(families->n_owned(), 0.);
-    broken_volume = cut_volume = family_volume;
+    volumes.family.assign(families->n_owned(), 0.);
+    volumes.broken = volumes.cut = volumes.family;
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (bonds.neighbour[slot] != i)
-          lose(slot, i, family_volume);
+          lose(slot, i, volumes.family);
     measure_rest_lengths();
   }
 
@@ -114,7 +114,7 @@ namespace perideal
             is_cut(families->position[i], families->position[bonds.neighbour[slot]]))
           {
             remove(slot);
-            lose(slot, i, cut_volume);
+            lose(slot, i, volumes.cut);
             this->lost.push_back({slot, i, bonds.neighbour[slot]});
             ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
@@ -144,7 +144,7 @@ namespace perideal
   {
     this->lost.push_back({slot, near, bonds.neighbour[slot]});
     remove(slot);
-    lose(slot, near, broken_volume);
+    lose(slot, near, volumes.broken);
   }
 
   template <int dim>
@@ -182,7 +182,7 @@ namespace perideal
           continue;
         this->lost.push_back({slot, ends.near, ends.far});
         remove(slot);
-        lose(slot, ends.near, broken_volume);
+        lose(slot, ends.near, volumes.broken);
       }
   }
 
@@ -191,7 +191,7 @@ namespace perideal
   {
     std::vector<double> result(volume.size());
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = family_volume[i] > 0 ? volume[i] / family_volume[i] : 0.;
+      result[i] = volumes.family[i] > 0 ? volume[i] / volumes.family[i] : 0.;
     return result;
   }
 
@@ -201,7 +201,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(rest_length) +
            memory_consumption(critical_stretch) + regions.memory_consumption() +
-           3 * memory_consumption(family_volume) + this->lost.capacity() * sizeof(this->lost[0]) +
+           3 * memory_consumption(volumes.family) + this->lost.capacity() * sizeof(this->lost[0]) +
            2 * position.size() * sizeof(NodeRecord) + ghosted.memory_consumption();
   }
 

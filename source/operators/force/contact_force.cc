@@ -24,9 +24,9 @@ namespace perideal
     , spacing(families->n_local())
     , stiffness(families->n_local())
     , exposed(on_surface)
-    , listed_at(families->position.begin(), families->position.begin() + families->n_owned())
   {
     AssertDimension(on_surface.size(), families->n_owned());
+    lists.made_at.assign(families->position.begin(), families->position.begin() + families->n_owned());
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       {
         const double horizon = families->horizon[i];
@@ -65,28 +65,29 @@ namespace perideal
   void ContactForce<dim>::take_lost_bonds(const BondForce<dim> &bonds)
   {
     const auto &lost = bonds.lost_bonds();
-    for (; n_lost_taken < lost.size(); ++n_lost_taken)
+    for (; lists.n_lost_taken < lost.size(); ++lists.n_lost_taken)
       {
-        const Pair pair = pair_of_lost(lost[n_lost_taken]);
+        const Pair pair = pair_of_lost(lost[lists.n_lost_taken]);
         exposed[pair.i] = true;
         if (pair.j < families->n_owned())
           exposed[pair.j] = true;
         // Either node may still move a whole spacing before the lists are made anew: from half a spacing
         // on one side of where it was then to half a spacing on the other.
         if (present_length(pair) < pair.distance + spacing[pair.i] + spacing[pair.j])
-          once_bonded.push_back(pair);
+          lists.once_bonded.push_back(pair);
       }
   }
 
   template <int dim>
   bool ContactForce<dim>::lists_are_old() const
   {
-    unsigned int result = has_lists ? 0 : 1;
+    unsigned int result = lists.are_made ? 0 : 1;
     for (LocalIndex i = 0; i < families->n_owned() && result == 0; ++i)
       {
         double square = 0;
         for (int d = 0; d < dim; ++d)
-          square += (position[i].value[d] - listed_at[i][d]) * (position[i].value[d] - listed_at[i][d]);
+          square +=
+            (position[i].value[d] - lists.made_at[i][d]) * (position[i].value[d] - lists.made_at[i][d]);
         if (square > 0.25 * spacing[i] * spacing[i])
           result = 1;
       }
@@ -115,17 +116,17 @@ namespace perideal
   template <int dim>
   void ContactForce<dim>::list_lost_bonds(const BondForce<dim> &bonds)
   {
-    once_bonded.clear();
+    lists.once_bonded.clear();
     for (const auto &bond : bonds.lost_bonds())
       {
         const Pair pair = pair_of_lost(bond);
         if (present_length(pair) < pair.distance + 0.5 * (spacing[pair.i] + spacing[pair.j]))
-          once_bonded.push_back(pair);
+          lists.once_bonded.push_back(pair);
       }
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
-        listed_at[i][d] = position[i].value[d];
-    has_lists = true;
+        lists.made_at[i][d] = position[i].value[d];
+    lists.are_made = true;
   }
 
   template <int dim>
@@ -165,11 +166,11 @@ namespace perideal
           }
       }
     // Debris is no longer in the order of the body.
-    found_node.clear();
+    sought.node.clear();
     for (const LocalIndex k : order_along_curve(present))
       {
         const LocalIndex i = candidate[k];
-        found_node.push_back(i);
+        sought.node.push_back(i);
         cloud.position.push_back(present[k]);
         cloud.volume.push_back(families->volume[i]);
         cloud.spacing.push_back(spacing[i]);
@@ -187,17 +188,17 @@ namespace perideal
     const NodeCloud<dim> cloud = candidates();
     const GlobalIndex    n_all =
       dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(families->n_owned()), families->communicator);
-    left_out = n_all - cloud.n_global;
-    ++searches;
-    strangers.clear();
-    any_strangers = false;
+    sought.n_left_out = n_all - cloud.n_global;
+    ++sought.n_searches;
+    lists.strangers.clear();
+    lists.any_strangers = false;
     if (cloud.n_global == 0)
       return;
 
     const Families<dim> found(cloud);
     NodalVector         number(found.make_partitioner(1));
-    for (LocalIndex a = 0; a < found_node.size(); ++a)
-      number.local_element(a) = families->global_number(found_node[a]);
+    for (LocalIndex a = 0; a < sought.node.size(); ++a)
+      number.local_element(a) = families->global_number(sought.node[a]);
     number.update_ghost_values();
     const auto constants = [&](const LocalIndex a) {
       const double h = found.horizon[a] / search_radius();
@@ -205,18 +206,19 @@ namespace perideal
                             parameters.stiffness * bulk_modulus(found.material[a]) * found.volume[a] /
                               (h * h * horizon_factor * horizon_factor));
     };
-    for (LocalIndex a = 0; a < found_node.size(); ++a)
+    for (LocalIndex a = 0; a < sought.node.size(); ++a)
       for (const LocalIndex *b = std::upper_bound(found.begin(a), found.end(a), a); b != found.end(a); ++b)
-        if (!are_family(found_node[a], static_cast<GlobalIndex>(number.local_element(*b)), bonds))
+        if (!are_family(sought.node[a], static_cast<GlobalIndex>(number.local_element(*b)), bonds))
           {
             const auto of_a = constants(a), of_b = constants(*b);
-            strangers.push_back({a,
-                                 *b,
-                                 0.5 * parameters.distance * (of_a.first + of_b.first),
-                                 std::min(of_a.second, of_b.second)});
+            lists.strangers.push_back({a,
+                                       *b,
+                                       0.5 * parameters.distance * (of_a.first + of_b.first),
+                                       std::min(of_a.second, of_b.second)});
           }
-    found_position.reinit(found.make_partitioner(dim));
-    any_strangers = dealii::Utilities::MPI::max(strangers.empty() ? 0u : 1u, families->communicator) > 0;
+    sought.position.reinit(found.make_partitioner(dim));
+    lists.any_strangers =
+      dealii::Utilities::MPI::max(lists.strangers.empty() ? 0u : 1u, families->communicator) > 0;
   }
 
   template <int dim>
@@ -246,9 +248,9 @@ namespace perideal
       }
     // A pair that the partition cuts stands on both ranks.
     const double share = both ? 1. : 0.5;
-    own_energy += share * 0.5 * pair.stiffness * overlap * overlap;
-    own_ends += 2 * share;
-    own_overlap = std::max(own_overlap, overlap / pair.distance);
+    own.energy += share * 0.5 * pair.stiffness * overlap * overlap;
+    own.ends += 2 * share;
+    own.overlap = std::max(own.overlap, overlap / pair.distance);
   }
 
   template <int dim>
@@ -263,35 +265,35 @@ namespace perideal
           search(bonds.bond_list());
         else
           {
-            strangers.clear();
-            any_strangers = false;
+            lists.strangers.clear();
+            lists.any_strangers = false;
           }
       }
 
-    own_energy = own_ends = 0;
-    for (const Pair &pair : once_bonded)
+    own.energy = own.ends = 0;
+    for (const Pair &pair : lists.once_bonded)
       repel(pair, position[pair.i].value, position[pair.j].value, pair.i, pair.j, force);
-    if (!any_strangers)
+    if (!lists.any_strangers)
       return;
-    for (LocalIndex a = 0; a < found_node.size(); ++a)
+    for (LocalIndex a = 0; a < sought.node.size(); ++a)
       for (int d = 0; d < dim; ++d)
-        found_position.local_element(dim * a + d) = position[found_node[a]].value[d];
-    found_position.update_ghost_values();
-    const double *y = found_position.begin();
-    for (const Pair &pair : strangers)
+        sought.position.local_element(dim * a + d) = position[sought.node[a]].value[d];
+    sought.position.update_ghost_values();
+    const double *y = sought.position.begin();
+    for (const Pair &pair : lists.strangers)
       repel(pair,
             y + dim * pair.i,
             y + dim * pair.j,
-            found_node[pair.i],
-            pair.j < found_node.size() ? found_node[pair.j] : families->n_local(),
+            sought.node[pair.i],
+            pair.j < sought.node.size() ? sought.node[pair.j] : families->n_local(),
             force);
-    found_position.zero_out_ghost_values();
+    sought.position.zero_out_ghost_values();
   }
 
   template <int dim>
   double ContactForce<dim>::energy() const
   {
-    return dealii::Utilities::MPI::sum(own_energy, families->communicator);
+    return dealii::Utilities::MPI::sum(own.energy, families->communicator);
   }
 
   template <int dim>
@@ -299,20 +301,20 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(spacing) + memory_consumption(stiffness) + memory_consumption(exposed) +
-           listed_at.capacity() * sizeof(listed_at[0]) + memory_consumption(found_node) +
-           (once_bonded.capacity() + strangers.capacity()) * sizeof(Pair);
+           lists.made_at.capacity() * sizeof(lists.made_at[0]) + memory_consumption(sought.node) +
+           (lists.once_bonded.capacity() + lists.strangers.capacity()) * sizeof(Pair);
   }
 
   template <int dim>
   GlobalIndex ContactForce<dim>::n_contacts() const
   {
-    return dealii::Utilities::MPI::sum(own_ends, families->communicator) / 2;
+    return dealii::Utilities::MPI::sum(own.ends, families->communicator) / 2;
   }
 
   template <int dim>
   double ContactForce<dim>::largest_overlap() const
   {
-    return dealii::Utilities::MPI::max(own_overlap, families->communicator);
+    return dealii::Utilities::MPI::max(own.overlap, families->communicator);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ContactForce)

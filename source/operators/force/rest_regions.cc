@@ -18,8 +18,8 @@ namespace perideal
     , moved(n_row_blocks + (n_local - n_owned + block_size - 1) / block_size, 0)
     , in_sums(n_row_blocks, 0)
     , in_forces(n_row_blocks, 0)
-    , beside_ghosts(n_row_blocks, 0)
-    , beside(n_row_blocks)
+    , neighbours{std::vector<std::vector<LocalIndex>>(n_row_blocks),
+                 std::vector<std::uint8_t>(n_row_blocks, 0)}
     , slots(n_row_blocks, 0)
   {
     // Neighbours are sorted: most repetitions follow each other.
@@ -34,14 +34,14 @@ namespace perideal
         for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
           {
             const LocalIndex other = block_of(bonds.neighbour[slot]);
-            add(beside[block], other);
+            add(neighbours.blocks[block], other);
             if (other < n_row_blocks)
-              add(beside[other], block);
+              add(neighbours.blocks[other], block);
             else
-              beside_ghosts[block] = 1;
+              neighbours.are_ghosts[block] = 1;
           }
       }
-    for (auto &list : beside)
+    for (auto &list : neighbours.blocks)
       {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -58,8 +58,8 @@ namespace perideal
   {
     for (LocalIndex block = 0; block < n_row_blocks; ++block)
       if (!in_sums[block])
-        in_sums[block] = moved[block] || std::any_of(beside[block].begin(),
-                                                     beside[block].end(),
+        in_sums[block] = moved[block] || std::any_of(neighbours.blocks[block].begin(),
+                                                     neighbours.blocks[block].end(),
                                                      [&](const auto b) { return moved[b] != 0; });
     if (!through_states)
       in_forces = in_sums;
@@ -67,10 +67,10 @@ namespace perideal
       for (LocalIndex block = 0; block < n_row_blocks; ++block)
         // What states ghosts have, their owners know: forces beside them are always summed.
         if (!in_forces[block])
-          in_forces[block] = in_sums[block] || beside_ghosts[block] ||
-                             std::any_of(beside[block].begin(), beside[block].end(), [&](const auto b) {
-                               return b < n_row_blocks && in_sums[b] != 0;
-                             });
+          in_forces[block] = in_sums[block] || neighbours.are_ghosts[block] ||
+                             std::any_of(neighbours.blocks[block].begin(),
+                                         neighbours.blocks[block].end(),
+                                         [&](const auto b) { return b < n_row_blocks && in_sums[b] != 0; });
     const unsigned int asleep =
       std::any_of(in_sums.begin(), in_sums.end(), [](const auto a) { return a == 0; }) ||
       std::any_of(in_forces.begin(), in_forces.end(), [](const auto a) { return a == 0; });
@@ -81,13 +81,14 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(moved) + memory_consumption(in_sums) + memory_consumption(in_forces) +
-           memory_consumption(beside_ghosts) + memory_consumption(beside) + memory_consumption(slots);
+           memory_consumption(neighbours.are_ghosts) + memory_consumption(neighbours.blocks) +
+           memory_consumption(slots);
   }
 
   double RestRegions::share_awake() const
   {
-    const double awake = dealii::Utilities::MPI::sum(awake_slots, communicator),
-                 all   = dealii::Utilities::MPI::sum(all_slots, communicator);
+    const double awake = dealii::Utilities::MPI::sum(computed.awake, communicator),
+                 all   = dealii::Utilities::MPI::sum(computed.all, communicator);
     return all > 0 ? awake / all : 1.;
   }
 

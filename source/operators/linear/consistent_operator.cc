@@ -34,12 +34,12 @@ namespace perideal
         AssertDimension(range.second, e);
         range.second = e + 1;
       }
-    strains.resize(n_local, PairRecord{});
-    stresses.resize(n_local, PairRecord{});
-    forces.resize(n_local, NodeRecord{});
+    work.strains.resize(numbering.n_local, PairRecord{});
+    work.stresses.resize(numbering.n_local, PairRecord{});
+    work.forces.resize(numbering.n_local, NodeRecord{});
 
-    this->reports.resize(n_owned);
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    this->reports.resize(numbering.n_owned);
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         this->reports[i].singular = gradient->deficient()[i];
         this->counts.singular += gradient->deficient()[i];
@@ -51,60 +51,61 @@ namespace perideal
   void ConsistentOperator<dim>::number_nodes()
   {
     const CellGraph<dim> &graph = gradient->graph();
-    n_owned                     = graph.n_owned();
+    numbering.n_owned           = graph.n_owned();
     std::map<GlobalIndex, LocalIndex> node_of_number;
-    for (LocalIndex i = n_owned; i < graph.n_local(); ++i)
+    for (LocalIndex i = numbering.n_owned; i < graph.n_local(); ++i)
       node_of_number[graph.global_number(i)] = i;
-    n_local                                = graph.n_local();
+    numbering.n_local                      = graph.n_local();
     std::vector<dealii::Point<dim>> points = graph.position;
-    node_of_member.resize(families->n_local());
+    numbering.node_of_member.resize(families->n_local());
     for (LocalIndex m = 0; m < families->n_local(); ++m)
-      if (m < n_owned)
-        node_of_member[m] = m;
+      if (m < numbering.n_owned)
+        numbering.node_of_member[m] = m;
       else
         {
-          const auto inserted = node_of_number.insert({families->global_number(m), n_local});
+          const auto inserted = node_of_number.insert({families->global_number(m), numbering.n_local});
           if (inserted.second)
             {
               points.push_back(families->position[m]);
-              ++n_local;
+              ++numbering.n_local;
             }
-          node_of_member[m] = inserted.first->second;
+          numbering.node_of_member[m] = inserted.first->second;
         }
-    global_number.resize(n_local);
-    for (LocalIndex i = 0; i < n_owned; ++i)
-      global_number[i] = graph.global_number(i);
+    numbering.global.resize(numbering.n_local);
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
+      numbering.global[i] = graph.global_number(i);
     std::vector<GlobalIndex> ghosts;
     for (const auto &ghost : node_of_number)
       {
-        global_number[ghost.second] = ghost.first;
+        numbering.global[ghost.second] = ghost.first;
         ghosts.push_back(ghost.first);
       }
 
-    positions.resize(n_local, NodeRecord{});
-    displacements.resize(n_local, NodeRecord{});
-    for (LocalIndex i = 0; i < n_local; ++i)
+    positions.resize(numbering.n_local, NodeRecord{});
+    work.displacements.resize(numbering.n_local, NodeRecord{});
+    for (LocalIndex i = 0; i < numbering.n_local; ++i)
       for (int d = 0; d < dim; ++d)
         positions[i].value[d] = points[i][d];
 
-    const GlobalIndex n_global = dealii::Utilities::MPI::sum<GlobalIndex>(n_owned, families->communicator);
-    this->partitioner          = make_node_partitioner(
-      families->global_number(0), n_owned, n_global, ghosts, dim, families->communicator);
-    ghosted.reinit(this->partitioner);
-    node_of_ghost = nodes_of_ghosts(*this->partitioner);
-    ghosted_strains.reinit(families->make_partitioner(n_pairs));
+    const GlobalIndex n_global =
+      dealii::Utilities::MPI::sum<GlobalIndex>(numbering.n_owned, families->communicator);
+    this->partitioner = make_node_partitioner(
+      families->global_number(0), numbering.n_owned, n_global, ghosts, dim, families->communicator);
+    work.ghosted.reinit(this->partitioner);
+    numbering.node_of_ghost = numbering.nodes_of_ghosts(*this->partitioner);
+    work.ghosted_strains.reinit(families->make_partitioner(n_pairs));
     const auto force_partitioner = graph.make_partitioner(dim);
-    ghosted_forces.reinit(force_partitioner);
-    node_of_graph_ghost = nodes_of_ghosts(*force_partitioner);
+    work.ghosted_forces.reinit(force_partitioner);
+    numbering.node_of_graph_ghost = numbering.nodes_of_ghosts(*force_partitioner);
   }
 
   template <int dim>
   std::vector<LocalIndex>
-  ConsistentOperator<dim>::nodes_of_ghosts(const dealii::Utilities::MPI::Partitioner &layout) const
+  ConsistentOperator<dim>::Numbering::nodes_of_ghosts(const dealii::Utilities::MPI::Partitioner &layout) const
   {
     std::map<GlobalIndex, LocalIndex> node_of_number;
     for (LocalIndex i = n_owned; i < n_local; ++i)
-      node_of_number[global_number[i]] = i;
+      node_of_number[global[i]] = i;
     std::vector<LocalIndex> result;
     for (unsigned int g = 0; g < layout.n_ghost_indices(); g += dim)
       result.push_back(node_of_number.at(layout.ghost_indices().nth_index_in_set(g) / dim));
@@ -124,7 +125,7 @@ namespace perideal
           modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
         bond_modulus.push_back(modulus_of[id]);
       }
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
           const LocalIndex j = bonds.neighbour[k];
@@ -138,14 +139,14 @@ namespace perideal
             length_square, distance_square(j, bond), families->volume[i], bond_modulus[j]);
         }
     for (LocalIndex &j : bonds.neighbour)
-      j = node_of_member[j];
+      j = numbering.node_of_member[j];
   }
 
   template <int dim>
   void ConsistentOperator<dim>::set_solids(const SolidOf<dim> &solid_of)
   {
     std::map<dealii::types::material_id, LocalIndex> number;
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         const auto inserted = number.insert({families->material[i], solids.size()});
         if (inserted.second)
@@ -156,8 +157,8 @@ namespace perideal
             for (unsigned int p = 0; p < n_pairs; ++p)
               for (unsigned int q = 0; q < n_pairs; ++q)
                 {
-                  const auto [a, b]     = pair_axes(p);
-                  const auto [c, d]     = pair_axes(q);
+                  const auto [a, b]     = Symmetric::axes(p);
+                  const auto [c, d]     = Symmetric::axes(q);
                   solid.stiffness[p][q] = from.stiffness()[a][b][c][d];
                 }
             solids.push_back(solid);
@@ -169,10 +170,10 @@ namespace perideal
   template <int dim>
   std::vector<double> ConsistentOperator<dim>::dilatation() const
   {
-    std::vector<double> result(n_owned, 0.);
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    std::vector<double> result(numbering.n_owned, 0.);
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        result[i] += pair(strains[i], d);
+        result[i] += Symmetric::pair(work.strains[i], d);
     return result;
   }
 
@@ -187,8 +188,8 @@ namespace perideal
         dealii::Tensor<1, dim>    force;
         for (unsigned int k = 0; k < n_pairs; ++k)
           {
-            const unsigned int a = pair_axes(k).first, b = pair_axes(k).second;
-            const double       t = pair(stresses[point.node], k) / families->volume[point.node];
+            const unsigned int a = Symmetric::axes(k).first, b = Symmetric::axes(k).second;
+            const double t = Symmetric::pair(work.stresses[point.node], k) / families->volume[point.node];
             force[a] += t * point.area[b];
             if (a != b)
               force[b] += t * point.area[a];
@@ -206,9 +207,10 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(stiffness.near) +
-           memory_consumption(stiffness.far) + memory_consumption(node_of_member) +
-           memory_consumption(global_number) + memory_consumption(solid_of_node) +
-           n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) + gradient->memory_consumption();
+           memory_consumption(stiffness.far) + memory_consumption(numbering.node_of_member) +
+           memory_consumption(numbering.global) + memory_consumption(solid_of_node) +
+           numbering.n_local * (3 * sizeof(NodeRecord) + 2 * sizeof(PairRecord)) +
+           gradient->memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ConsistentOperator)

@@ -27,17 +27,18 @@ namespace perideal
   template <int dim>
   void ConsistentOperator<dim>::import_displacement(const NodalVector &displacement) const
   {
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       for (int d = 0; d < dim; ++d)
-        displacements[i].value[d] = displacement.local_element(dim * i + d);
-    if (n_local == n_owned)
+        work.displacements[i].value[d] = displacement.local_element(dim * i + d);
+    if (numbering.n_local == numbering.n_owned)
       return;
-    std::copy(displacement.begin(), displacement.begin() + dim * n_owned, ghosted.begin());
-    ghosted.update_ghost_values();
-    for (std::size_t g = 0; g < node_of_ghost.size(); ++g)
+    std::copy(displacement.begin(), displacement.begin() + dim * numbering.n_owned, work.ghosted.begin());
+    work.ghosted.update_ghost_values();
+    for (std::size_t g = 0; g < numbering.node_of_ghost.size(); ++g)
       for (int d = 0; d < dim; ++d)
-        displacements[node_of_ghost[g]].value[d] = ghosted.local_element(dim * (n_owned + g) + d);
-    ghosted.zero_out_ghost_values();
+        work.displacements[numbering.node_of_ghost[g]].value[d] =
+          work.ghosted.local_element(dim * (numbering.n_owned + g) + d);
+    work.ghosted.zero_out_ghost_values();
   }
 
   template <int dim>
@@ -45,12 +46,12 @@ namespace perideal
   {
     const auto &rows = gradient->rows();
     auto        next = prescribed_of_node.begin();
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         dealii::Tensor<2, dim> g;
         for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
           {
-            const double *u = displacements[rows.column[k]].value;
+            const double *u = work.displacements[rows.column[k]].value;
             for (int a = 0; a < dim; ++a)
               for (int b = 0; b < dim; ++b)
                 g[a][b] += u[a] * rows.value[k][b];
@@ -62,8 +63,8 @@ namespace perideal
           }
         for (unsigned int k = 0; k < n_pairs; ++k)
           {
-            const auto [a, b]   = pair_axes(k);
-            pair(strains[i], k) = a == b ? g[a][a] : g[a][b] + g[b][a];
+            const auto [a, b]                   = Symmetric::axes(k);
+            Symmetric::pair(work.strains[i], k) = a == b ? g[a][a] : g[a][b] + g[b][a];
           }
       }
   }
@@ -84,7 +85,7 @@ namespace perideal
             {
               double change = with_prescribed ? entry.value[a] : 0.;
               for (BondIndex k = phi.first[entry.point]; k < phi.first[entry.point + 1]; ++k)
-                change -= phi.value[k] * displacements[phi.column[k]].value[a];
+                change -= phi.value[k] * work.displacements[phi.column[k]].value[a];
               g[a] += change * area;
             }
       }
@@ -93,16 +94,17 @@ namespace perideal
   template <int dim>
   void ConsistentOperator<dim>::import_strains() const
   {
-    if (families->n_local() == n_owned)
+    if (families->n_local() == numbering.n_owned)
       return;
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       for (unsigned int k = 0; k < n_pairs; ++k)
-        ghosted_strains.local_element(n_pairs * i + k) = pair(strains[i], k);
-    ghosted_strains.update_ghost_values();
-    for (LocalIndex m = n_owned; m < families->n_local(); ++m)
+        work.ghosted_strains.local_element(n_pairs * i + k) = Symmetric::pair(work.strains[i], k);
+    work.ghosted_strains.update_ghost_values();
+    for (LocalIndex m = numbering.n_owned; m < families->n_local(); ++m)
       for (unsigned int k = 0; k < n_pairs; ++k)
-        pair(strains[node_of_member[m]], k) = ghosted_strains.local_element(n_pairs * m + k);
-    ghosted_strains.zero_out_ghost_values();
+        Symmetric::pair(work.strains[numbering.node_of_member[m]], k) =
+          work.ghosted_strains.local_element(n_pairs * m + k);
+    work.ghosted_strains.zero_out_ghost_values();
   }
 
   template <int dim>
@@ -110,14 +112,14 @@ namespace perideal
   {
     using Parts                    = std::array<Lanes, n_parts>;
     constexpr unsigned int n_lanes = BondList::n_lanes;
-    const NodeRecord      *x = positions.data(), *u = displacements.data();
-    const PairRecord      *strain = strains.data();
-    NodeRecord            *f      = forces.data();
-    PairRecord            *stress = stresses.data();
-    std::fill(forces.begin(), forces.end(), NodeRecord{});
-    std::fill(stresses.begin(), stresses.end(), PairRecord{});
+    const NodeRecord      *x = positions.data(), *u = work.displacements.data();
+    const PairRecord      *strain = work.strains.data();
+    NodeRecord            *f      = work.forces.data();
+    PairRecord            *stress = work.stresses.data();
+    std::fill(work.forces.begin(), work.forces.end(), NodeRecord{});
+    std::fill(work.stresses.begin(), work.stresses.end(), PairRecord{});
 
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         const Lanes xi = lanes(x[i]), ui    = lanes(u[i]);
         Parts       near_strain, own_stress = {};
@@ -169,7 +171,7 @@ namespace perideal
   template <int dim>
   void ConsistentOperator<dim>::turn_into_stress() const
   {
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         const auto  &stiffness = solids[solid_of_node[i]].stiffness;
         const double volume    = families->volume[i];
@@ -177,8 +179,8 @@ namespace perideal
           {
             double stress = 0;
             for (unsigned int q = 0; q < n_pairs; ++q)
-              stress += stiffness[p][q] * pair(strains[i], q);
-            pair(stresses[i], p) += volume * stress;
+              stress += stiffness[p][q] * Symmetric::pair(work.strains[i], q);
+            Symmetric::pair(work.stresses[i], p) += volume * stress;
           }
       }
   }
@@ -189,17 +191,17 @@ namespace perideal
     const auto &rows = gradient->rows();
     const auto &phi  = gradient->boundary_rows();
     auto        next = prescribed_of_node.begin();
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         dealii::Tensor<2, dim> t;
         for (unsigned int k = 0; k < n_pairs; ++k)
           {
-            const auto [a, b] = pair_axes(k);
-            t[a][b] = t[b][a] = pair(stresses[i], k);
+            const auto [a, b] = Symmetric::axes(k);
+            t[a][b] = t[b][a] = Symmetric::pair(work.stresses[i], k);
           }
         for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
           {
-            double *f = forces[rows.column[k]].value;
+            double *f = work.forces[rows.column[k]].value;
             for (int a = 0; a < dim; ++a)
               f[a] -= t[a] * rows.value[k];
           }
@@ -212,7 +214,7 @@ namespace perideal
             for (int a = 0; a < dim; ++a)
               if (entry.condition[a] != FaceValues<dim>::free)
                 for (BondIndex k = phi.first[entry.point]; k < phi.first[entry.point + 1]; ++k)
-                  forces[phi.column[k]].value[a] += phi.value[k] * pull[a];
+                  work.forces[phi.column[k]].value[a] += phi.value[k] * pull[a];
           }
         ++next;
       }
@@ -229,22 +231,24 @@ namespace perideal
     sum_over_bonds();
     turn_into_stress();
     // What the bonds did to ghosts, their owners know themselves.
-    std::fill(forces.begin() + n_owned, forces.end(), NodeRecord{});
+    std::fill(work.forces.begin() + numbering.n_owned, work.forces.end(), NodeRecord{});
     add_transposed_gradient();
     // Bonds pull node i along +xi when stretched; K u resists with the opposite sign.
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       for (int d = 0; d < dim; ++d)
-        force.local_element(dim * i + d) = -forces[i].value[d];
-    if (node_of_graph_ghost.empty() && ghosted_forces.get_partitioner()->n_import_indices() == 0)
+        force.local_element(dim * i + d) = -work.forces[i].value[d];
+    if (numbering.node_of_graph_ghost.empty() &&
+        work.ghosted_forces.get_partitioner()->n_import_indices() == 0)
       return;
-    for (std::size_t i = 0; i < dim * n_owned; ++i)
-      ghosted_forces.local_element(i) = force.local_element(i);
-    for (std::size_t g = 0; g < node_of_graph_ghost.size(); ++g)
+    for (std::size_t i = 0; i < dim * numbering.n_owned; ++i)
+      work.ghosted_forces.local_element(i) = force.local_element(i);
+    for (std::size_t g = 0; g < numbering.node_of_graph_ghost.size(); ++g)
       for (int d = 0; d < dim; ++d)
-        ghosted_forces.local_element(dim * (n_owned + g) + d) = -forces[node_of_graph_ghost[g]].value[d];
-    ghosted_forces.compress(dealii::VectorOperation::add);
-    for (std::size_t i = 0; i < dim * n_owned; ++i)
-      force.local_element(i) = ghosted_forces.local_element(i);
+        work.ghosted_forces.local_element(dim * (numbering.n_owned + g) + d) =
+          -work.forces[numbering.node_of_graph_ghost[g]].value[d];
+    work.ghosted_forces.compress(dealii::VectorOperation::add);
+    for (std::size_t i = 0; i < dim * numbering.n_owned; ++i)
+      force.local_element(i) = work.ghosted_forces.local_element(i);
   }
 
   template <int dim>

@@ -40,7 +40,7 @@ namespace perideal
     for (std::size_t k = 0; k < n; ++k)
       for (unsigned int p = 0; p < n_pairs; ++p)
         {
-          const auto [a, b] = pair_axes(p);
+          const auto [a, b] = Symmetric::axes(p);
           row[k][p][a] += c[k][a][b];
           if (a != b)
             row[k][p][b] += c[k][b][a];
@@ -66,7 +66,7 @@ namespace perideal
       if (families->material[*m] == families->material[i])
         {
           const auto bond = families->position[*m] - families->position[i];
-          visit(node_of_member[*m],
+          visit(numbering.node_of_member[*m],
                 bond,
                 model.bond_stiffness(bond.norm_square(),
                                      distance_square(i, bond),
@@ -79,17 +79,17 @@ namespace perideal
   std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
   {
     const auto                         &rows = gradient->rows();
-    std::vector<dealii::Tensor<2, dim>> blocks(n_local);
+    std::vector<dealii::Tensor<2, dim>> blocks(numbering.n_local);
     StrainRow                           row;
     constexpr LocalIndex                none = dealii::numbers::invalid_unsigned_int;
-    std::vector<LocalIndex>             place(n_local, none);
+    std::vector<LocalIndex>             place(numbering.n_local, none);
     const auto                          add_cross = [](dealii::Tensor<2, dim>       &block,
                               const double                  factor,
                               const dealii::Tensor<1, dim> &bond,
                               const dealii::Tensor<1, dim> &v) {
       block += factor * (outer_product(bond, v) + outer_product(v, bond));
     };
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         strain_row(i, row);
         const LocalIndex *column = rows.column.data() + rows.first[i];
@@ -98,16 +98,16 @@ namespace perideal
 
         auto stiffness = elasticity(i);
         visit_family(i, [&](const LocalIndex j, const dealii::Tensor<1, dim> &bond, const double b) {
-          const Pairs square = products(bond);
+          const Pairs square = Symmetric::products(bond);
           for (unsigned int p = 0; p < n_pairs; ++p)
             for (unsigned int q = 0; q < n_pairs; ++q)
               stiffness[p][q] += b * square[p] * square[q];
           const auto of_bond = b * outer_product(bond, bond);
           blocks[i] += of_bond;
           blocks[j] += of_bond;
-          add_cross(blocks[i], b, bond, dot(row[place[i]], square));
+          add_cross(blocks[i], b, bond, Symmetric::dot(row[place[i]], square));
           if (place[j] != none)
-            add_cross(blocks[j], -b, bond, dot(row[place[j]], square));
+            add_cross(blocks[j], -b, bond, Symmetric::dot(row[place[j]], square));
         });
         for (LocalIndex k = 0; k < row.size(); ++k)
           {
@@ -122,7 +122,7 @@ namespace perideal
           }
       }
     collect(blocks);
-    blocks.resize(n_owned);
+    blocks.resize(numbering.n_owned);
     return blocks;
   }
 
@@ -133,14 +133,15 @@ namespace perideal
     NodalVector row(this->partitioner);
     for (int r = 0; r < dim; ++r)
       {
-        for (LocalIndex i = 0; i < n_local; ++i)
+        for (LocalIndex i = 0; i < numbering.n_local; ++i)
           {
-            const LocalIndex node = i < n_owned ? i : node_of_ghost[i - n_owned];
+            const LocalIndex node =
+              i < numbering.n_owned ? i : numbering.node_of_ghost[i - numbering.n_owned];
             for (int d = 0; d < dim; ++d)
               row.local_element(dim * i + d) = blocks[node][r][d];
           }
         row.compress(dealii::VectorOperation::add);
-        for (LocalIndex i = 0; i < n_owned; ++i)
+        for (LocalIndex i = 0; i < numbering.n_owned; ++i)
           for (int d = 0; d < dim; ++d)
             blocks[i][r][d] = row.local_element(dim * i + d);
         row.zero_out_ghost_values();
@@ -155,7 +156,7 @@ namespace perideal
     std::vector<LocalIndex>  nodes;
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
-    for (LocalIndex i = 0; i < n_owned; ++i)
+    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
       {
         strain_row(i, row);
         const LocalIndex *column = rows.column.data() + rows.first[i];
@@ -170,7 +171,7 @@ namespace perideal
         const std::size_t n = dim * nodes.size();
         unknowns.resize(n);
         for (std::size_t k = 0; k < n; ++k)
-          unknowns[k] = dim * global_number[nodes[k / dim]] + k % dim;
+          unknowns[k] = dim * numbering.global[nodes[k / dim]] + k % dim;
 
         values.assign(n * n, 0.);
         const auto add_square =
@@ -194,7 +195,7 @@ namespace perideal
         std::vector<double> residual;
         visit_family(i, [&](const LocalIndex j, const dealii::Tensor<1, dim> &bond, const double b) {
           residual.assign(n, 0.);
-          const Pairs square = products(bond);
+          const Pairs square = Symmetric::products(bond);
           for (unsigned int p = 0; p < n_pairs; ++p)
             for (std::size_t k = 0; k < n; ++k)
               residual[k] -= square[p] * strain[p][k];

@@ -18,8 +18,8 @@ namespace perideal
     , gradient(gradient)
     , prescribed(prescribed)
     , model(model)
-    , spans_space(families->n_owned(), true)
   {
+    of_family.spans_space.assign(families->n_owned(), true);
     for (const auto id : families->material)
       if (penalty_modulus.find(id) == penalty_modulus.end())
         penalty_modulus[id] = Correspondence<dim>::penalty_modulus(solid_of(id));
@@ -29,18 +29,18 @@ namespace perideal
       {
         view.reinit(*families, i);
         for (const LocalIndex m : view.member)
-          member.push_back(families->begin(i)[m]);
-        first.push_back(member.size());
+          of_family.member.push_back(families->begin(i)[m]);
+        of_family.first.push_back(of_family.member.size());
       }
-    member_c.resize(by_faces() ? 0 : member.size());
-    penalty.resize(member.size());
+    of_family.c.resize(by_faces() ? 0 : of_family.member.size());
+    of_family.penalty.resize(of_family.member.size());
     number_face_ghosts();
     for (LocalIndex i = 0; i < n_owned(); ++i)
       weigh(i, {});
     if (by_faces())
       {
         make_boundary_rows();
-        support.resize(prescribed->entries().size());
+        work.support.resize(prescribed->entries().size());
       }
   }
 
@@ -71,25 +71,25 @@ namespace perideal
                 number[k] = n_owned() + (known - families->ghost_number.begin());
                 continue;
               }
-            number[k] = families->n_local() + face_ghost.size();
-            face_ghost.push_back(global);
+            number[k] = families->n_local() + of_faces.ghost.size();
+            of_faces.ghost.push_back(global);
             ghosts.add_range(dim * global, dim * (global + 1));
           }
         for (const LocalIndex column : gradient->rows().column)
-          face_column.push_back(number[column]);
+          of_faces.column.push_back(number[column]);
       }
     dealii::IndexSet owned(own_layout->size());
     owned.add_range(range.first, range.second);
     layout =
       std::make_shared<const dealii::Utilities::MPI::Partitioner>(owned, ghosts, families->communicator);
-    ghosted.reinit(layout);
-    ghosted_forces.reinit(layout);
-    const LocalIndex n = families->n_local() + face_ghost.size();
+    work.ghosted.reinit(layout);
+    work.ghosted_forces.reinit(layout);
+    const LocalIndex n = families->n_local() + of_faces.ghost.size();
     for (LocalIndex k = n_owned(); k < n; ++k)
       ghost_number.push_back(layout->global_to_local(dim * global_number(k)));
     positions.resize(n, NodeRecord{});
-    displacements.resize(n, NodeRecord{});
-    node_forces.resize(n, NodeRecord{});
+    work.displacements.resize(n, NodeRecord{});
+    work.forces.resize(n, NodeRecord{});
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         positions[i].value[d] = families->position[i][d];
@@ -102,21 +102,21 @@ namespace perideal
     FamilyView<dim> view;
     view.reinit(*families, i);
     typename Correspondence<dim>::Weights weights;
-    const LocalIndex                     *j = member.data() + first[i];
+    const LocalIndex                     *j = of_family.member.data() + of_family.first[i];
     model.compute(
       view,
       penalty_modulus.at(families->material[i]),
       is_gone ? std::function<bool(const LocalIndex)>([&](const LocalIndex k) { return is_gone(i, j[k]); }) :
                 nullptr,
       weights);
-    spans_space[i] = weights.has_gradient;
+    of_family.spans_space[i] = weights.has_gradient;
     for (LocalIndex k = 0; k < view.size; ++k)
       {
         // Between materials the faces join, across which gradients jump.
-        penalty[first[i] + k] =
+        of_family.penalty[of_family.first[i] + k] =
           by_faces() && families->material[i] != families->material[j[k]] ? 0. : weights.penalty[k];
         if (!by_faces())
-          member_c[first[i] + k] = weights.gradient[k];
+          of_family.c[of_family.first[i] + k] = weights.gradient[k];
       }
   }
 
@@ -166,20 +166,20 @@ namespace perideal
   double CorrespondenceRows<dim>::at_face(const std::size_t entry, const int component) const
   {
     const auto &at = prescribed->entries()[entry];
-    return reading == AtFaces::nothing || at.condition[component] == FaceValues<dim>::free ?
+    return work.reading == AtFaces::nothing || at.condition[component] == FaceValues<dim>::free ?
              0. :
-             (reading == AtFaces::values ? at.value : at.increment)[component];
+             (work.reading == AtFaces::values ? at.value : at.increment)[component];
   }
 
   template <int dim>
   void
   CorrespondenceRows<dim>::add_at_faces(const BoundaryRow &row, const LocalIndex i, Lanes (&g)[dim]) const
   {
-    const LocalIndex *column = face_column.data() + gradient->rows().first[i];
+    const LocalIndex *column = of_faces.column.data() + gradient->rows().first[i];
     for (std::size_t k = 0; k < row.c.size(); ++k)
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          g[b][a] += displacements[column[k]].value[a] * row.c[k][a][b];
+          g[b][a] += work.displacements[column[k]].value[a] * row.c[k][a][b];
     for (std::size_t e = row.first_entry; e < row.last_entry; ++e)
       {
         const auto &area = gradient->boundary_points()[prescribed->entries()[e].point].area;
@@ -194,52 +194,52 @@ namespace perideal
                                               const LocalIndex   i,
                                               const Lanes (&t)[dim]) const
   {
-    const LocalIndex *column = face_column.data() + gradient->rows().first[i];
+    const LocalIndex *column = of_faces.column.data() + gradient->rows().first[i];
     for (std::size_t k = 0; k < row.c.size(); ++k)
       for (int a = 0; a < dim; ++a)
         for (int b = 0; b < dim; ++b)
-          node_forces[column[k]].value[a] += t[b][a] * row.c[k][a][b];
+          work.forces[column[k]].value[a] += t[b][a] * row.c[k][a][b];
     for (std::size_t e = row.first_entry; e < row.last_entry; ++e)
       {
         const auto &entry = prescribed->entries()[e];
         const auto &area  = gradient->boundary_points()[entry.point].area;
-        support[e]        = 0.;
+        work.support[e]   = 0.;
         for (int a = 0; a < dim; ++a)
           if (entry.condition[a] != FaceValues<dim>::free)
             for (int b = 0; b < dim; ++b)
-              support[e][a] += t[b][a] * area[b] / families->volume[i];
+              work.support[e][a] += t[b][a] * area[b] / families->volume[i];
       }
   }
 
   template <int dim>
   void CorrespondenceRows<dim>::read(const NodalVector &displacement, const AtFaces at_faces) const
   {
-    reading = at_faces;
+    work.reading = at_faces;
     for (LocalIndex i = 0; i < n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
-        displacements[i].value[d] = displacement.local_element(dim * i + d);
+        work.displacements[i].value[d] = displacement.local_element(dim * i + d);
     if (ghost_number.empty() && layout->n_import_indices() == 0)
       return;
-    std::copy_n(displacement.begin(), dim * n_owned(), ghosted.begin());
-    ghosted.update_ghost_values();
+    std::copy_n(displacement.begin(), dim * n_owned(), work.ghosted.begin());
+    work.ghosted.update_ghost_values();
     for (std::size_t g = 0; g < ghost_number.size(); ++g)
       for (int d = 0; d < dim; ++d)
-        displacements[n_owned() + g].value[d] = ghosted.local_element(ghost_number[g] + d);
-    ghosted.zero_out_ghost_values();
+        work.displacements[n_owned() + g].value[d] = work.ghosted.local_element(ghost_number[g] + d);
+    work.ghosted.zero_out_ghost_values();
   }
 
   template <int dim>
   void CorrespondenceRows<dim>::collect(NodalVector &force) const
   {
-    NodalVector &sum = ghost_number.empty() && layout->n_import_indices() == 0 ? force : ghosted_forces;
+    NodalVector &sum = ghost_number.empty() && layout->n_import_indices() == 0 ? force : work.ghosted_forces;
     for (LocalIndex i = 0; i < n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
-        sum.local_element(dim * i + d) = node_forces[i].value[d];
+        sum.local_element(dim * i + d) = work.forces[i].value[d];
     if (&sum == &force)
       return;
     for (std::size_t g = 0; g < ghost_number.size(); ++g)
       for (int d = 0; d < dim; ++d)
-        sum.local_element(ghost_number[g] + d) = node_forces[n_owned() + g].value[d];
+        sum.local_element(ghost_number[g] + d) = work.forces[n_owned() + g].value[d];
     sum.compress(dealii::VectorOperation::add);
     std::copy_n(sum.begin(), dim * n_owned(), force.begin());
   }
@@ -248,15 +248,15 @@ namespace perideal
   double CorrespondenceRows<dim>::penalty_energy(const LocalIndex i, const Gradient &g) const
   {
     double result = 0;
-    for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+    for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
       {
         dealii::Tensor<1, dim> z, bond;
         for (int d = 0; d < dim; ++d)
           {
-            bond[d] = positions[member[k]].value[d] - positions[i].value[d];
-            z[d]    = displacements[member[k]].value[d] - displacements[i].value[d];
+            bond[d] = positions[of_family.member[k]].value[d] - positions[i].value[d];
+            z[d]    = work.displacements[of_family.member[k]].value[d] - work.displacements[i].value[d];
           }
-        result += 0.5 * penalty[k] * (z - g * bond).norm_square();
+        result += 0.5 * of_family.penalty[k] * (z - g * bond).norm_square();
       }
     return result;
   }
@@ -265,10 +265,11 @@ namespace perideal
   std::size_t CorrespondenceRows<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(first) + memory_consumption(member) + memory_consumption(member_c) +
-           memory_consumption(penalty) + memory_consumption(face_column) +
-           (gradient ? gradient->memory_consumption() : 0) + 3 * positions.size() * sizeof(NodeRecord) +
-           ghosted.memory_consumption() + ghosted_forces.memory_consumption();
+    return memory_consumption(of_family.first) + memory_consumption(of_family.member) +
+           memory_consumption(of_family.c) + memory_consumption(of_family.penalty) +
+           memory_consumption(of_faces.column) + (gradient ? gradient->memory_consumption() : 0) +
+           3 * positions.size() * sizeof(NodeRecord) + work.ghosted.memory_consumption() +
+           work.ghosted_forces.memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(CorrespondenceRows)

@@ -22,27 +22,27 @@ namespace perideal
         const auto  boundary = boundary_rows.find(i);
         for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
           {
-            row.column.push_back(face_column[k]);
+            row.column.push_back(of_faces.column[k]);
             dealii::Tensor<2, dim> c;
             for (int a = 0; a < dim; ++a)
               c[a] = rows.value[k];
             row.c.push_back(boundary == boundary_rows.end() ? c : boundary->second.c[k - rows.first[i]]);
           }
-        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
-          if (std::find(row.column.begin(), row.column.end(), member[k]) == row.column.end())
-            row.column.push_back(member[k]);
+        for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
+          if (std::find(row.column.begin(), row.column.end(), of_family.member[k]) == row.column.end())
+            row.column.push_back(of_family.member[k]);
         row.c.resize(row.column.size());
         return row;
       }
     row.column.push_back(i);
-    row.c.resize(1 + first[i + 1] - first[i]);
-    for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+    row.c.resize(1 + of_family.first[i + 1] - of_family.first[i]);
+    for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
       {
-        row.column.push_back(member[k]);
+        row.column.push_back(of_family.member[k]);
         for (int a = 0; a < dim; ++a)
           {
-            row.c[row.column.size() - 1][a] = member_c[k];
-            row.c[0][a] -= member_c[k];
+            row.c[row.column.size() - 1][a] = of_family.c[k];
+            row.c[0][a] -= of_family.c[k];
           }
       }
     return row;
@@ -85,12 +85,12 @@ namespace perideal
         double                 sum = 0;
         dealii::Tensor<1, dim> first_moment;
         dealii::Tensor<2, dim> second_moment;
-        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+        for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
           {
-            const auto bond = families->position[member[k]] - families->position[i];
-            sum += penalty[k];
-            first_moment += penalty[k] * bond;
-            second_moment += penalty[k] * outer_product(bond, bond);
+            const auto bond = families->position[of_family.member[k]] - families->position[i];
+            sum += of_family.penalty[k];
+            first_moment += of_family.penalty[k] * bond;
+            second_moment += of_family.penalty[k] * outer_product(bond, bond);
           }
         for (std::size_t k = 0; k < row.column.size(); ++k)
           {
@@ -105,11 +105,12 @@ namespace perideal
               }
             else
               {
-                const auto begin = member.begin() + first[i], end = member.begin() + first[i + 1];
+                const auto begin = of_family.member.begin() + of_family.first[i],
+                           end   = of_family.member.begin() + of_family.first[i + 1];
                 const auto found = std::lower_bound(begin, end, j);
                 if (found != end && *found == j)
                   {
-                    own   = penalty[found - member.begin()];
+                    own   = of_family.penalty[found - of_family.member.begin()];
                     mixed = -own * (families->position[j] - families->position[i]);
                   }
               }
@@ -141,7 +142,7 @@ namespace perideal
         const DenseRow               row       = dense_row(i);
         const dealii::Tensor<4, dim> A         = families->volume[i] * tangent_of(i);
         const std::size_t            n         = row.column.size();
-        const BondIndex              n_members = first[i + 1] - first[i];
+        const BondIndex              n_members = of_family.first[i + 1] - of_family.first[i];
         const std::size_t self = std::find(row.column.begin(), row.column.end(), i) - row.column.begin();
         unknowns.clear();
         for (const LocalIndex j : row.column)
@@ -162,7 +163,7 @@ namespace perideal
             }
         for (BondIndex m = 0; m < n_members; ++m)
           {
-            const LocalIndex  j    = member[first[i] + m];
+            const LocalIndex  j    = of_family.member[of_family.first[i] + m];
             const auto        bond = families->position[j] - families->position[i];
             const std::size_t far  = std::find(row.column.begin(), row.column.end(), j) - row.column.begin();
             for (int a = 0; a < dim; ++a)
@@ -174,7 +175,7 @@ namespace perideal
                 r[self] -= 1.;
                 for (std::size_t k = 0; k < n; ++k)
                   for (std::size_t l = 0; l < n; ++l)
-                    entry(k, a, l, a) += penalty[first[i] + m] * r[k] * r[l];
+                    entry(k, a, l, a) += of_family.penalty[of_family.first[i] + m] * r[k] * r[l];
               }
           }
         add(unknowns, values);

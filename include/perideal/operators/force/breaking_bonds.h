@@ -29,8 +29,8 @@ namespace perideal
     void                  restore_broken(const std::vector<BondEnds> &broken) override;
     const BondList       &bond_list() const override { return bonds; }
     const NodeRecord     *positions() const override { return position.data(); }
-    std::vector<double>   damage() const override { return share_of_family(broken_volume); }
-    std::vector<double>   cut_share() const override { return share_of_family(cut_volume); }
+    std::vector<double>   damage() const override { return share_of_family(volumes.broken); }
+    std::vector<double>   cut_share() const override { return share_of_family(volumes.cut); }
     double                share_computed() const override { return regions.share_awake(); }
 
   protected:
@@ -77,8 +77,13 @@ namespace perideal
     void                measure_rest_lengths();
     std::vector<double> share_of_family(const std::vector<double> &volume) const;
 
-    bool                judges_bonds = true;
-    std::vector<double> family_volume, broken_volume, cut_volume;
+    bool judges_bonds = true;
+    /// Of the families of owned nodes [m^3]: whole, behind bonds that broke, and behind bonds that were cut.
+    struct Volumes
+    {
+      std::vector<double> family, broken, cut;
+    };
+    Volumes volumes;
     /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
     std::size_t n_cut = 0, n_lost_before = 0;
     NodalVector ghosted;

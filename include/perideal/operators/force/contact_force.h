@@ -53,7 +53,7 @@ namespace perideal
     std::size_t memory_consumption() const;
 
     /// Makes its lists anew in the next add(), as a run does that goes on from here.
-    void forget_lists() { has_lists = false; }
+    void forget_lists() { lists.are_made = false; }
 
     /// Energy of the contacts of all ranks at the last add() [J]. Collective.
     double energy() const;
@@ -63,8 +63,8 @@ namespace perideal
     double      largest_overlap() const;
 
     /// Searches so far, and nodes that the last one left out.
-    unsigned int n_searches() const { return searches; }
-    GlobalIndex  n_left_out() const { return left_out; }
+    unsigned int n_searches() const { return sought.n_searches; }
+    GlobalIndex  n_left_out() const { return sought.n_left_out; }
 
   private:
     /// Two nodes that may touch; the first is owned.
@@ -85,7 +85,7 @@ namespace perideal
     void list_lost_bonds(const BondForce<dim> &bonds);
     /// Over the spacing: what may come within the contact distance until the lists are old.
     double search_radius() const { return parameters.distance + 1.; }
-    /// What may touch, at present positions; sets found_node.
+    /// What may touch, at present positions; sets the nodes sought.
     NodeCloud<dim> candidates();
     void           search(const BondList &bonds);
     bool           are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const;
@@ -107,20 +107,36 @@ namespace perideal
     /// Of owned nodes: on the surface or with a lost bond.
     std::vector<bool> exposed;
 
-    const NodeRecord               *position = nullptr;
-    std::vector<dealii::Point<dim>> listed_at;
-    bool                            has_lists    = false;
-    std::size_t                     n_lost_taken = 0;
-    /// Pairs by the numbers of the families; pairs by the numbers of the last search.
-    std::vector<Pair>       once_bonded, strangers;
-    std::vector<LocalIndex> found_node;
-    NodalVector             found_position;
-    bool                    any_strangers = false;
+    const NodeRecord *position = nullptr;
 
-    unsigned int searches = 0;
-    GlobalIndex  left_out = 0;
-    /// Of this rank.
-    double own_energy = 0, own_overlap = 0, own_ends = 0;
+    /// What may touch: pairs that were bonded once, by the numbers of the families, and strangers, by those
+    /// of the last search.
+    struct Lists
+    {
+      std::vector<dealii::Point<dim>> made_at;
+      bool                            are_made     = false;
+      std::size_t                     n_lost_taken = 0;
+      std::vector<Pair>               once_bonded, strangers;
+      bool                            any_strangers = false;
+    };
+    Lists lists;
+
+    /// Nodes among which the last search looked for strangers, and how many it left out.
+    struct Search
+    {
+      std::vector<LocalIndex> node;
+      NodalVector             position;
+      unsigned int            n_searches = 0;
+      GlobalIndex             n_left_out = 0;
+    };
+    Search sought;
+
+    /// Of the contacts of this rank at the last add(); the overlap is the largest so far.
+    struct Sums
+    {
+      double energy = 0, overlap = 0, ends = 0;
+    };
+    Sums own;
   };
 } // namespace perideal
 

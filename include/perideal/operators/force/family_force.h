@@ -11,6 +11,16 @@
 
 namespace perideal
 {
+  /// The weight of a family's sum at an end of a bond; 0 of families without sums.
+  template <unsigned int n_sums, typename Sums>
+  double value_at_end(const Sums &sums, const unsigned int a, const BondCursor::End &end)
+  {
+    if constexpr (n_sums == 0)
+      return 0.;
+    else
+      return (end.is_near ? sums[a].near : sums[a].far)[end.slot];
+  }
+
   /**
    * The nonlinear loops for models of one family shape. Weights are kept in single precision, which
    * halves what the loops load; it is one perturbation of 6e-8 of the material, the same in forces and
@@ -75,19 +85,11 @@ namespace perideal
     double stiffness(const BondIndex slot) const { return unit.stiffness * weights.stiffness[slot]; }
     double sum_weight(const unsigned int a, const BondCursor::End &end) const
     {
-      return unit.sum * at_end(weights.sum_weight, a, end);
+      return unit.sum * value_at_end<n_sums>(weights.sum_weight, a, end);
     }
     double force_weight(const unsigned int a, const BondCursor::End &end) const
     {
-      return unit.force * at_end(weights.force_weights(), a, end);
-    }
-    template <typename Sums>
-    static double at_end(const Sums &sums, const unsigned int a, const BondCursor::End &end)
-    {
-      if constexpr (n_sums == 0)
-        return 0.;
-      else
-        return (end.is_near ? sums[a].near : sums[a].far)[end.slot];
+      return unit.force * value_at_end<n_sums>(weights.force_weights(), a, end);
     }
 
     /// Copies weights, which become single precision. Collective.

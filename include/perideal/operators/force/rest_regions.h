@@ -40,7 +40,7 @@ namespace perideal
     template <typename Visit>
     void visit_rows_with(const LocalIndex i, const Visit &visit) const
     {
-      for (const LocalIndex block : beside[block_of(i)])
+      for (const LocalIndex block : neighbours.blocks[block_of(i)])
         for (LocalIndex j = block * block_size; block < n_row_blocks && j < (block + 1) * block_size && j < i;
              ++j)
           visit(j);
@@ -58,13 +58,26 @@ namespace perideal
     LocalIndex n_owned, n_local, n_row_blocks;
     bool       through_states;
     MPI_Comm   communicator;
-    bool       all_awake   = false;
-    double     awake_slots = 0, all_slots = 0;
+    bool       all_awake = false;
 
-    /// Blocks of owned rows, then of ghosts; those that hold the neighbours of each row block.
-    std::vector<std::uint8_t>            moved, in_sums, in_forces, beside_ghosts;
-    std::vector<std::vector<LocalIndex>> beside;
-    std::vector<BondIndex>               slots;
+    /// Slots of all updates so far.
+    struct Counts
+    {
+      double awake = 0, all = 0;
+    };
+    Counts computed;
+
+    /// Blocks of owned rows, then of ghosts.
+    std::vector<std::uint8_t> moved, in_sums, in_forces;
+
+    /// Of each row block, the blocks that hold its neighbours, and whether ghosts are among these.
+    struct Neighbours
+    {
+      std::vector<std::vector<LocalIndex>> blocks;
+      std::vector<std::uint8_t>            are_ghosts;
+    };
+    Neighbours             neighbours;
+    std::vector<BondIndex> slots;
   };
 
   template <typename HasMoved>
@@ -83,8 +96,8 @@ namespace perideal
         all += slots[block];
         awake += in_forces[block] ? slots[block] : 0;
       }
-    all_slots += all;
-    awake_slots += awake;
+    computed.all += all;
+    computed.awake += awake;
   }
 } // namespace perideal
 

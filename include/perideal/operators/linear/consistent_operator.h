@@ -7,6 +7,7 @@
 #include <perideal/materials/consistent.h>
 #include <perideal/neighbourhood/bond_list.h>
 #include <perideal/operators/linear/bond_operator.h>
+#include <perideal/operators/linear/symmetric_pairs.h>
 #include <perideal/reconstruction/face_gradient.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -28,9 +29,7 @@ namespace perideal
    *
    * in three passes: rows of G, bonds once, rows of G transposed.
    *
-   * Symmetric tensors are vectors of pairs: strain (xx, yy, 2xy) in 2-D, (xx, yy,
-   * zz, 2xy, 2yz, 2zx) in 3-D, and products xi (x) xi and stress without the twos,
-   * so that their scalar product is that of the tensors.
+   * Symmetric tensors are vectors of pairs (symmetric_pairs.h).
    *
    * Nodes are numbered as in the face gradient's graph, ghosts of the families that
    * are not in the graph behind them.
@@ -61,58 +60,29 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> support_forces() const override;
 
   private:
-    static constexpr unsigned int n_pairs = dim * (dim + 1) / 2;
-    static constexpr unsigned int n_parts = dim - 1;
+    using Symmetric                       = SymmetricPairs<dim>;
+    using Pairs                           = typename Symmetric::Pairs;
+    using PairRecord                      = typename Symmetric::PairRecord;
+    static constexpr unsigned int n_pairs = Symmetric::n_pairs;
+    static constexpr unsigned int n_parts = Symmetric::n_parts;
     /// Values of the two ends of every bond, by slot.
     struct Ends
     {
       std::vector<double> near, far;
     };
-    using Pairs = std::array<double, n_pairs>;
     /// What nodes are made of: C as a matrix on strain pairs, modulus of the bonds [Pa].
     struct Solid
     {
       std::array<Pairs, n_pairs> stiffness;
       double                     bond_modulus;
     };
-    /// A vector of pairs as the bond loop reads it: 2-D one record (xx, yy, xy, 0),
-    /// 3-D two: (xx, yy, zz, 0), (xy, yz, zx, 0).
-    using PairRecord = std::array<NodeRecord, n_parts>;
-
-    /// The axes (a, b) that pair @p k stands for.
-    static constexpr std::pair<unsigned int, unsigned int> pair_axes(const unsigned int k)
-    {
-      return k < dim ? std::make_pair(k, k) : std::make_pair(k - dim, (k - dim + 1) % dim);
-    }
-    template <typename Record>
-    static auto &pair(Record &record, const unsigned int k)
-    {
-      return dim == 2 ? record[0].value[k] : record[k / 3].value[k % 3];
-    }
-    static Pairs products(const dealii::Tensor<1, dim> &bond)
-    {
-      Pairs result;
-      for (unsigned int k = 0; k < n_pairs; ++k)
-        result[k] = bond[pair_axes(k).first] * bond[pair_axes(k).second];
-      return result;
-    }
-    static dealii::Tensor<1, dim> dot(const std::array<dealii::Tensor<1, dim>, n_pairs> &row,
-                                      const Pairs                                       &pairs)
-    {
-      dealii::Tensor<1, dim> result;
-      for (unsigned int k = 0; k < n_pairs; ++k)
-        result += pairs[k] * row[k];
-      return result;
-    }
 
     /// Prescribed entries [first, last) of a node.
     using EntryRange = std::pair<std::size_t, std::size_t>;
 
     void number_nodes();
-    /// Nodes of the ghosts of a layout with dim values a node.
-    std::vector<LocalIndex> nodes_of_ghosts(const dealii::Utilities::MPI::Partitioner &layout) const;
-    void                    set_solids(const SolidOf<dim> &solid_of);
-    void                    weigh_bonds(const SolidOf<dim> &solid_of);
+    void set_solids(const SolidOf<dim> &solid_of);
+    void weigh_bonds(const SolidOf<dim> &solid_of);
 
     void apply(NodalVector &force, const NodalVector &displacement, const bool with_prescribed) const;
     void import_displacement(const NodalVector &displacement) const;
@@ -149,24 +119,37 @@ namespace perideal
     Consistent<dim>                          model;
     BondList                                 bonds;
 
-    /// Node of each local number of the families.
-    std::vector<LocalIndex>  node_of_member;
-    std::vector<GlobalIndex> global_number;
-    LocalIndex               n_owned, n_local;
-    std::vector<Solid>       solids;
+    /// Local and global numbers of the nodes.
+    struct Numbering
+    {
+      /// Nodes of the ghosts of a layout with dim values a node.
+      std::vector<LocalIndex> nodes_of_ghosts(const dealii::Utilities::MPI::Partitioner &layout) const;
+
+      LocalIndex n_owned, n_local;
+      /// Node of each local number of the families.
+      std::vector<LocalIndex>  node_of_member;
+      std::vector<GlobalIndex> global;
+      /// Node of each ghost of the layouts of `ghosted` and `ghosted_forces`.
+      std::vector<LocalIndex> node_of_ghost, node_of_graph_ghost;
+    };
+    Numbering          numbering;
+    std::vector<Solid> solids;
     /// By owned node, of the above.
     std::vector<LocalIndex> solid_of_node;
     /// Bond stiffness b of the families of either end, by slot [N/m^3].
     Ends stiffness;
     /// Prescribed entries [first, last) of the owned nodes that have any.
-    std::map<LocalIndex, EntryRange> prescribed_of_node;
-    // Work space of vmult().
-    dealii::AlignedVector<NodeRecord>         positions;
-    mutable dealii::AlignedVector<NodeRecord> displacements, forces;
-    mutable dealii::AlignedVector<PairRecord> strains, stresses;
-    mutable NodalVector                       ghosted, ghosted_strains, ghosted_forces;
-    /// Node of each ghost in `ghosted` and in `ghosted_forces`.
-    std::vector<LocalIndex> node_of_ghost, node_of_graph_ghost;
+    std::map<LocalIndex, EntryRange>  prescribed_of_node;
+    dealii::AlignedVector<NodeRecord> positions;
+
+    /// Work space of vmult().
+    struct Work
+    {
+      dealii::AlignedVector<NodeRecord> displacements, forces;
+      dealii::AlignedVector<PairRecord> strains, stresses;
+      NodalVector                       ghosted, ghosted_strains, ghosted_forces;
+    };
+    mutable Work work;
   };
 } // namespace perideal
 

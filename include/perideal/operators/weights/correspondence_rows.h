@@ -54,7 +54,7 @@ namespace perideal
                  const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone);
 
     /// Whether the bonds of an owned node span space.
-    bool has_gradient(const LocalIndex i) const { return spans_space[i]; }
+    bool has_gradient(const LocalIndex i) const { return of_family.spans_space[i]; }
 
     /// Which prescribed values at faces count: none, those that they have, or what they have still to move.
     enum class AtFaces
@@ -85,7 +85,7 @@ namespace perideal
 
     /// Forces that the supports exert on the body at the prescribed face values [N], by entry, of the last
     /// forces().
-    const std::vector<dealii::Tensor<1, dim>> &support_forces() const { return support; }
+    const std::vector<dealii::Tensor<1, dim>> &support_forces() const { return work.support; }
 
     /// Of the Hessian of U with dP/dF given by node [Pa]: blocks on the diagonal, and pieces as of
     /// BondOperator. Collective.
@@ -139,7 +139,7 @@ namespace perideal
     DenseRow    dense_row(const LocalIndex i) const;
     GlobalIndex global_number(const LocalIndex k) const
     {
-      return k < families->n_local() ? families->global_number(k) : face_ghost[k - families->n_local()];
+      return k < families->n_local() ? families->global_number(k) : of_faces.ghost[k - families->n_local()];
     }
 
     std::shared_ptr<const Families<dim>>     families;
@@ -149,32 +149,46 @@ namespace perideal
     /// By material [Pa].
     std::map<dealii::types::material_id, double> penalty_modulus;
 
-    /// Members of owned families with a weight, [first[i], first[i+1]).
-    std::vector<BondIndex>              first = {0};
-    std::vector<LocalIndex>             member;
-    std::vector<dealii::Tensor<1, dim>> member_c;
-    std::vector<double>                 penalty;
-    std::vector<bool>                   spans_space;
-    /// Columns of the face gradient in the numbers of here.
-    std::vector<LocalIndex>  face_column;
-    std::vector<GlobalIndex> face_ghost;
-    BoundaryRows             boundary_rows;
+    /// Members of owned families with a weight, [first[i], first[i+1]), with their c and b_ij.
+    struct Members
+    {
+      std::vector<BondIndex>              first = {0};
+      std::vector<LocalIndex>             member;
+      std::vector<dealii::Tensor<1, dim>> c;
+      std::vector<double>                 penalty;
+      std::vector<bool>                   spans_space;
+    };
+    Members of_family;
 
-    // What read() leaves, and forces().
+    /// Columns of the face gradient in the numbers of here, and the ghosts that only it knows.
+    struct FaceNumbers
+    {
+      std::vector<LocalIndex>  column;
+      std::vector<GlobalIndex> ghost;
+    };
+    FaceNumbers  of_faces;
+    BoundaryRows boundary_rows;
+
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<LocalIndex>                                    ghost_number;
     dealii::AlignedVector<NodeRecord>                          positions;
-    mutable dealii::AlignedVector<NodeRecord>                  displacements, node_forces;
-    mutable NodalVector                                        ghosted, ghosted_forces;
-    mutable AtFaces                                            reading = AtFaces::nothing;
-    mutable std::vector<dealii::Tensor<1, dim>>                support;
+
+    /// What read() leaves, and forces().
+    struct Work
+    {
+      dealii::AlignedVector<NodeRecord>   displacements, forces;
+      NodalVector                         ghosted, ghosted_forces;
+      AtFaces                             reading = AtFaces::nothing;
+      std::vector<dealii::Tensor<1, dim>> support;
+    };
+    mutable Work work;
   };
 
   template <int dim>
   template <typename Visit>
   void CorrespondenceRows<dim>::for_all_nodes(const Visit &visit) const
   {
-    const NodeRecord *u    = displacements.data();
+    const NodeRecord *u    = work.displacements.data();
     auto              next = boundary_rows.begin();
     for (LocalIndex i = 0; i < n_owned(); ++i)
       {
@@ -189,16 +203,16 @@ namespace perideal
             const auto &rows = gradient->rows();
             for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
               for (int b = 0; b < dim; ++b)
-                g[b] += lanes(u[face_column[k]]) * rows.value[k][b];
+                g[b] += lanes(u[of_faces.column[k]]) * rows.value[k][b];
           }
         else
           {
             const Lanes ui = lanes(u[i]);
-            for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+            for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
               {
-                const Lanes difference = lanes(u[member[k]]) - ui;
+                const Lanes difference = lanes(u[of_family.member[k]]) - ui;
                 for (int b = 0; b < dim; ++b)
-                  g[b] += difference * member_c[k][b];
+                  g[b] += difference * of_family.c[k][b];
               }
           }
         visit(i, g, boundary);
@@ -209,9 +223,9 @@ namespace perideal
   template <typename StressOf>
   void CorrespondenceRows<dim>::sum_forces(const StressOf &stress_of) const
   {
-    const NodeRecord *u = displacements.data(), *x = positions.data();
-    NodeRecord       *f = node_forces.data();
-    std::fill(node_forces.begin(), node_forces.end(), NodeRecord{});
+    const NodeRecord *u = work.displacements.data(), *x = positions.data();
+    NodeRecord       *f = work.forces.data();
+    std::fill(work.forces.begin(), work.forces.end(), NodeRecord{});
     const bool stabilised = model.is_stabilised(), faces = by_faces(), has_bonds = stabilised || !faces;
     for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *boundary) {
       const Gradient stress = families->volume[i] * stress_of(i, to_tensor(g));
@@ -221,9 +235,9 @@ namespace perideal
           t[b][a] = stress[a][b];
       const Lanes ui = lanes(u[i]), xi = lanes(x[i]);
       Lanes       own = {};
-      for (BondIndex k = first[i]; has_bonds && k < first[i + 1]; ++k)
+      for (BondIndex k = of_family.first[i]; has_bonds && k < of_family.first[i + 1]; ++k)
         {
-          const LocalIndex j    = member[k];
+          const LocalIndex j    = of_family.member[k];
           Lanes            pull = {};
           if (stabilised)
             {
@@ -231,14 +245,14 @@ namespace perideal
               Lanes       z    = lanes(u[j]) - ui;
               for (int b = 0; b < dim; ++b)
                 z -= g[b] * bond[b];
-              pull = z * penalty[k];
+              pull = z * of_family.penalty[k];
               if (faces)
                 for (int b = 0; b < dim; ++b)
                   t[b] -= pull * bond[b];
             }
           if (!faces)
             for (int b = 0; b < dim; ++b)
-              pull += t[b] * member_c[k][b];
+              pull += t[b] * of_family.c[k][b];
           lanes(f[j]) += pull;
           own -= pull;
         }
@@ -253,7 +267,7 @@ namespace perideal
       const auto &rows = gradient->rows();
       for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
         for (int b = 0; b < dim; ++b)
-          lanes(f[face_column[k]]) += t[b] * rows.value[k][b];
+          lanes(f[of_faces.column[k]]) += t[b] * rows.value[k][b];
     });
   }
 
