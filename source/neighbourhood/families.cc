@@ -71,14 +71,7 @@ namespace perideal
 
   template <int dim>
   Families<dim>::Families(const NodeCloud<dim> &nodes, const std::shared_ptr<const VolumeRule<dim>> &rule)
-    : position(nodes.position)
-    , volume(nodes.volume)
-    , horizon(nodes.horizon)
-    , material(nodes.material)
-    , shape(nodes.shape)
-    , spacing(nodes.spacing)
-    , cell_radius(nodes.cell_radius)
-    , cell(nodes.cell)
+    : NodeArrays<dim>(nodes)
     , volume_rule(rule)
     , communicator(nodes.communicator)
     , n_owned_nodes(nodes.size())

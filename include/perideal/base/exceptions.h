@@ -8,7 +8,7 @@
 namespace perideal
 {
   /**
-   * The user's input is wrong: the program ends with exit status 1.
+   * Tells that the user's input is wrong: the program ends with exit status 1.
    *
    * A message is composed of named parts, so that every one of them tells the
    * user where the mistake is, what was given and what is allowed:
@@ -54,7 +54,7 @@ namespace perideal
   };
 
   /**
-   * The computation failed (no convergence, NaN, out of memory): the program
+   * Tells that the computation failed (no convergence, NaN, out of memory): the program
    * ends with exit status 2, with what was computed until then on disk.
    * May be thrown by a single rank.
    */

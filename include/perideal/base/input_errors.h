@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// Several mistakes in the user's input, of which the message counts and names each.
+  /// Tells of several mistakes in the user's input; the message counts and names each.
   class InputErrors : public InputError
   {
   public:

@@ -7,7 +7,7 @@
 #endif
 
 /**
- * Four doubles at once for the bond loops, on compiler vectors: they become
+ * Computes with four doubles at once in the bond loops. Compiler vectors become
  * AVX registers where the target has them and pairs of SSE registers elsewhere.
  * (dealii::VectorizedArray has one lane in a distribution's portable build.)
  */

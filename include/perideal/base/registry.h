@@ -10,7 +10,7 @@
 
 namespace perideal
 {
-  /// The candidate with the smallest edit distance to @p given, or an empty
+  /// Returns the candidate with the smallest edit distance to @p given, or an empty
   /// string when none is close enough to be meant.
   std::string nearest_name(const std::string &given, const std::vector<std::string> &candidates);
 

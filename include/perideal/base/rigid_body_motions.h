@@ -47,7 +47,7 @@ namespace perideal
     /// Orthonormal combinations that move no held component. Collective.
     std::vector<Coefficients> free_motions(MPI_Comm communicator) const;
 
-    /// In words, for messages: "translation in y, rotation about z".
+    /// Describes motions in words, for messages: "translation in y, rotation about z".
     static std::string describe(const std::vector<Coefficients> &motions);
 
   private:

@@ -6,12 +6,13 @@
 
 namespace perideal
 {
-  /// As long as an object of this class lives, SIGTERM and SIGINT do not end the program but ask it to stop.
+  /// Catches SIGTERM and SIGINT while an object of this class exists: they ask the program to stop instead of
+  /// ending it.
   class StopRequest
   {
   public:
     StopRequest();
-    /// Gives the signals back what they did before.
+    /// Restores the former signal handlers.
     ~StopRequest();
 
     StopRequest(const StopRequest &)            = delete;

@@ -7,7 +7,7 @@
 
 namespace perideal
 {
-  /// "12,345,678".
+  /// Writes a count with separators: "12,345,678".
   inline std::string grouped(const std::uint64_t number)
   {
     std::string text = std::to_string(number);

@@ -13,7 +13,7 @@
 namespace perideal
 {
   /**
-   * Wall time by phase. Thin over dealii::TimerOutput: what it adds is the
+   * Measures wall time by phase. This wraps dealii::TimerOutput and adds the
    * agreement between ranks (the slowest counts).
    */
   class Timings

@@ -55,7 +55,7 @@ namespace perideal
                         const unsigned int                     component);
   };
 
-  /// The coefficients of a polynomial about a node, linear in displacements and in what is known of the
+  /// Holds the coefficients of a polynomial about a node, linear in displacements and in what is known of the
   /// surface.
   template <int dim>
   struct TaylorPolynomial
@@ -75,11 +75,9 @@ namespace perideal
    *
    * r_k what T leaves of a traction, (C:grad T n - t) D/|C|, or of a prescribed displacement, at the centres
    * of the faces that the horizon reaches. At the faces of the node's own cell T meets both exactly. Curved
-   * surfaces have faces with different normals, so that T knows their curvature. Whole families count: with
-   * the twelve nearest members alone GMRES did not converge on unstructured meshes. On the plate with a hole
-   * (energy form, Q2 reference) w = 1, 2, 3, 5, 10 left errors of 6.5e-4, 7.7e-4, 1.0e-3, 1.6e-3, 2.3e-3, and
-   * on an unstructured mesh 5.4e-3, 5.6e-3, 5.3e-3, 5.9e-3, 1.0e-2; w = 1 took one iteration more. That was
-   * with gradients of fits of second degree inside, too; with fit_inside() w = 2 leaves 8.6e-4 on the former.
+   * surfaces have faces with different normals, so that T knows their curvature. All members of a family
+   * count: with the nearest alone GMRES may not converge on unstructured meshes. The choice of w and its
+   * effect are documented in tests/performance/details.md.
    */
   template <int dim>
   class TaylorFit

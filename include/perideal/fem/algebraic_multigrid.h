@@ -15,7 +15,7 @@
 namespace perideal
 {
   /**
-   * One cycle of smoothed-aggregation multigrid (Trilinos ML) on an elasticity
+   * Applies one cycle of smoothed-aggregation multigrid (Trilinos ML) on an elasticity
    * matrix, with all rigid-body motions as near-null space.
    */
   template <int dim>

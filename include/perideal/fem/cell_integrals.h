@@ -18,7 +18,7 @@
 namespace perideal
 {
   /**
-   * Integrals of linear elasticity over a cell and its faces, by Gauss
+   * Computes the integrals of linear elasticity over a cell and its faces, by Gauss
    * quadrature with degree+1 points a direction. Everything is multiplied by
    * the thickness of a two-dimensional body.
    */

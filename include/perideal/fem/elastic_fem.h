@@ -26,7 +26,7 @@ namespace perideal
   using SolidsByMaterial = std::map<dealii::types::material_id, ElasticSolid<dim>>;
 
   /**
-   * deal.II's continuous finite elements for linear elasticity on the mesh of a
+   * Solves linear elasticity with deal.II's continuous finite elements on the mesh of a
    * scene: the comparison (Q1), the converged reference (refined, Q2), and the
    * matrix behind the auxiliary-space preconditioner.
    */
@@ -61,7 +61,7 @@ namespace perideal
     /// when it was not done. Collective.
     void set_up_solver();
 
-    /// CG with AMG, to a residual of @p tolerance times the right-hand side.
+    /// Solves by CG with AMG, to a residual of @p tolerance times the right-hand side.
     /// Returns the number of iterations. Collective.
     /// @throws ComputationError when the solver does not converge.
     unsigned int solve(const double tolerance);

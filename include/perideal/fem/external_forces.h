@@ -13,8 +13,8 @@
 
 namespace perideal
 {
-  /// Body forces, tractions and point loads of a scene, cell by cell. They are dead: they act at the
-  /// undeformed body, whatever becomes of it.
+  /// Computes body forces, tractions and point loads of a scene, cell by cell. They are dead loads: they act
+  /// on the undeformed body and do not follow its deformation.
   template <int dim>
   class ExternalForces
   {

@@ -17,8 +17,9 @@
 namespace perideal
 {
   /**
-   * Integrals of a law of finite strain over an undeformed cell (total Lagrangian), by Gauss quadrature with
-   * degree+1 points a direction. Everything is multiplied by the thickness of a two-dimensional body.
+   * Computes the integrals of a law of finite strain over an undeformed cell (total Lagrangian), by Gauss
+   * quadrature with degree+1 points a direction. Everything is multiplied by the thickness of a
+   * two-dimensional body.
    */
   template <int dim>
   class FiniteStrainIntegrals
@@ -31,7 +32,7 @@ namespace perideal
                           const dealii::FESystem<dim> &element,
                           const double                 thickness);
 
-    /// Goes to a cell and its displacement [m], by the cell's unknowns.
+    /// Selects a cell and its displacement [m], by the cell's unknowns.
     void reinit(const Cell &cell, const dealii::Vector<double> &displacement);
 
     /// Strain energy [J]; infinite where the law admits no such deformation.

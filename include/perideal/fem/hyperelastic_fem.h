@@ -17,9 +17,9 @@
 namespace perideal
 {
   /**
-   * deal.II's continuous finite elements of degree one for finite strain on the mesh of a scene itself: total
-   * Lagrangian, any law of hyperelasticity, dead loads, from load step to load step. The comparison of
-   * nonlinear equilibria.
+   * Solves finite-strain elasticity load step by load step with deal.II's continuous finite elements of
+   * degree one on the mesh of a scene itself: total Lagrangian, any law of hyperelasticity, dead loads. It is
+   * the comparison of nonlinear equilibria.
    *
    * Newton's method. In the first iteration of a step the held unknowns move by their increments, and the
    * free ones by the linear prediction; then the whole step d is taken where it lowers the residual r, or

@@ -15,8 +15,8 @@
 namespace perideal
 {
   /**
-   * Values of a continuous finite-element displacement at any points, wherever
-   * their cells are.
+   * Evaluates a continuous finite-element displacement at any points, whatever rank
+   * owns their cells.
    *
    * dealii::Utilities::MPI::RemotePointEvaluation does the same, but looks
    * through all cells for each point that lies on a vertex. On the refined

@@ -10,10 +10,10 @@
 namespace perideal
 {
   /**
-   * Preconditioner of quadratic elements: Chebyshev smoothing on their matrix
+   * Preconditions quadratic elements by Chebyshev smoothing on their matrix
    * and, between, one cycle of algebraic multigrid on the matrix of linear
-   * elements on the same cells. Multigrid on the quadratic matrix itself takes
-   * 1.7 times as long and as much memory again as that matrix.
+   * elements on the same cells. Multigrid on the quadratic matrix itself is slower
+   * and needs its memory twice.
    */
   template <int dim>
   class PolynomialMultigrid

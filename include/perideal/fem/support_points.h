@@ -12,13 +12,12 @@
 namespace perideal
 {
   /**
-   * Support points of the unknowns this rank owns: entry i belongs to the owned
+   * Finds the support points of the unknowns that this rank owns: entry i belongs to the owned
    * unknowns dim*i ... dim*i+dim-1, the displacement components of one point.
    *
    * deal.II numbers FE_Q systems of degree 1 and 2 that way; higher degrees put
    * several points of a line behind one another and are not supported.
-   * (DoFTools::map_dofs_to_support_points() fills a std::map, which takes twenty
-   * times as long, a fifth of the assembly.)
+   * (DoFTools::map_dofs_to_support_points() fills a std::map, which is much slower.)
    */
   template <int dim>
   std::vector<dealii::Point<dim>> owned_support_points(const dealii::Mapping<dim>    &mapping,

@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// Where a crack branches.
+  /// Describes where a crack branches.
   struct Branching
   {
     /// Distance from the origin along the crack's direction [m].

@@ -33,7 +33,7 @@ namespace perideal
     }
   };
 
-  /// One crack as it grows: the damaged nodes that are connected, cell by cell, with a
+  /// Follows one crack as it grows: the damaged nodes that are connected, cell by cell, with a
   /// node near its origin. For one rank.
   template <int dim>
   class CrackPath
@@ -43,7 +43,7 @@ namespace perideal
     /// @param radius largest distance from the origin of nodes that count [m]
     CrackPath(const dealii::Point<dim> &origin, const dealii::Tensor<1, dim> &side, const double radius);
 
-    /// More damaged nodes, of this crack or not; each is given once.
+    /// Adds damaged nodes, of this crack or not; each is given once.
     void add(const std::vector<DamagedNode<dim>> &more);
 
     /// The nodes that count, by time.

@@ -63,10 +63,10 @@ namespace perideal
     /// @param damage of owned nodes, by precracks and since
     void update(const double time, const std::vector<double> &damage);
 
-    /// What it knows of owned nodes: the time of damage, or that they are whole or left out (negative
+    /// Returns the state of owned nodes: the time of damage, or that they are whole or left out (negative
     /// numbers).
     std::vector<double> state() const;
-    /// Goes on from the state of an earlier run.
+    /// Continues from the state of an earlier run.
     void resume(const std::vector<double> &state);
 
     /// Brings what was noted since the last call to rank 0, where what follows is known. Collective.

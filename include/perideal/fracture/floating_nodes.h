@@ -11,10 +11,10 @@
 namespace perideal
 {
   /**
-   * Which owned nodes came loose: no chain of bonds leads to them from a node that is held in all
-   * components; where the body has no such node, from any that is held. Nothing floats in a body that is not
-   * held at all. Collective.
-   * @param is_lost of bonds by slot
+   * Finds the owned nodes that are disconnected from the supports: no chain of bonds connects them with a
+   * node that is held in all components or, where the body has no such node, with any that is held. No node
+   * floats in a body that is not held at all. Collective.
+   * @param is_lost whether the bond in a slot carries no force any more
    * @param held by dim*node + component of owned nodes, 1 where held
    */
   template <int dim>

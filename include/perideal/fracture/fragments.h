@@ -9,9 +9,9 @@
 namespace perideal
 {
   /**
-   * The volumes of the pieces that cracks have made of a body, largest first [m^3]: sets of nodes
+   * Returns the volumes of the fragments of a body, largest first [m^3]: sets of nodes
    * with less than @p damaged damage that are connected from cell to cell, as far as cells that share a
-   * corner. Pieces of less than half a per cent of the body are left out. Collective.
+   * corner. Fragments of less than half a per cent of the body are left out. Collective.
    * @param spacing, damage of owned nodes
    */
   template <int dim>

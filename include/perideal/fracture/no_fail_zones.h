@@ -35,9 +35,9 @@ namespace perideal
   };
 
   /**
-   * Where nothing breaks, as at loads and supports: bonds with an end in one of the zones are
-   * unbreakable. A zone holds the positions near a boundary or in a box; where it has both, those
-   * that meet both.
+   * Protects zones in which nothing breaks, as at loads and supports: bonds with an end in one of the zones
+   * are unbreakable. A zone holds the positions near a boundary or in a box; where it has both, those that
+   * meet both.
    */
   template <int dim>
   class NoFailZones

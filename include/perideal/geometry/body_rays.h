@@ -11,7 +11,7 @@
 namespace perideal
 {
   /**
-   * Which parts of a straight line lie inside a body, by the faces of its boundary that are within reach.
+   * Finds the parts of a straight line that lie inside a body, from the faces of its boundary within reach.
    * Faces of hexahedra are taken as two triangles.
    */
   template <int dim>

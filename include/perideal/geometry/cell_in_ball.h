@@ -37,12 +37,12 @@ namespace perideal
   template <int dim>
   double cell_volume(const CellVertices<dim> &cell);
 
-  /// How much of a cell lies within a ball, in closed form [m^dim].
+  /// Computes how much of a cell lies within a ball, in closed form [m^dim].
   ///
   /// The parts of the cell's edges within the ball bound flat triangles, the parts without bound sectors of
   /// the disk that a face cuts from the ball, and solid angles seen from its centre; their signed sums need
-  /// no clipped polyhedron. Right to about 1e-14 of the cell's volume times the cell's distance over its
-  /// size. Cells need not be convex.
+  /// no clipped polyhedron. The relative error is that of rounding, times the cell's distance from the centre
+  /// over its size. Cells need not be convex.
   template <int dim>
   double volume_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
 
@@ -51,7 +51,8 @@ namespace perideal
   CellMoments<dim>
   moments_in_ball(const CellVertices<dim> &cell, const dealii::Point<dim> &centre, const double radius);
 
-  /// Where a cell lies to a ball, as far as its vertices and the box around them tell.
+  /// Tells whether a cell lies inside, outside or across a ball, as far as its vertices and the box around
+  /// them tell.
   enum class PlaceOfCell
   {
     inside,

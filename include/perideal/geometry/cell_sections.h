@@ -17,7 +17,7 @@ namespace perideal
     double begin, end;
   };
 
-  /// A polygon and a disk about the origin; chords run along the second axis.
+  /// Represents the intersection of a polygon and a disk about the origin; chords run along the second axis.
   class DiskedPolygon
   {
   public:
@@ -44,7 +44,8 @@ namespace perideal
     mutable std::vector<double> crossings;
   };
 
-  /// A cell and a ball about the origin. In 2-D the only section is the cell itself.
+  /// Represents the intersection of a cell and a ball about the origin. In 2-D the only section is the cell
+  /// itself.
   template <int dim>
   class CellSections;
 

@@ -11,7 +11,7 @@
 
 namespace perideal
 {
-  /// A segment in 2-D, a plane polygon in 3-D; its edge belongs to it.
+  /// Represents a segment in 2-D, a plane polygon in 3-D; its edge belongs to it.
   template <int dim>
   class Facet
   {
@@ -44,7 +44,7 @@ namespace perideal
     double                 size = 0;
   };
 
-  /// Facets, of which only the near ones are looked at where there are many.
+  /// Holds facets in a search tree, so that only nearby ones are tested.
   template <int dim>
   class Facets
   {

@@ -134,7 +134,7 @@ namespace perideal
     /// True when the operator of this model is symmetric.
     virtual bool is_symmetric() const = 0;
 
-    /// Whether coefficients depend on which node it is, so that equal families may have others.
+    /// Whether coefficients depend on which node it is, so that identical families may have others.
     virtual bool depends_on_node() const { return false; }
 
     /// Fills the coefficients of one family; they are resized by the caller.

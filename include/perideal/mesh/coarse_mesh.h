@@ -13,8 +13,8 @@
 
 namespace perideal
 {
-  /// A mesh as it was read or generated: serial, the same on every rank, not
-  /// yet seen by p4est.
+  /// Holds a mesh as it was read or generated: serial and the same on every rank, before
+  /// p4est distributes it.
   template <int dim>
   struct CoarseMesh
   {

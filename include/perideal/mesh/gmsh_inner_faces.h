@@ -10,7 +10,7 @@
 
 namespace perideal
 {
-  /// The faces of a `.msh` file that lie between two cells.
+  /// Holds the faces of a `.msh` file that lie between two cells.
   struct GmshInnerFaces
   {
     /// Corners around each face [m] by its physical tag; what is in no group is left out.
@@ -20,7 +20,7 @@ namespace perideal
   };
 
   /**
-   * Takes the faces inside the body out of a file, which deal.II refuses.
+   * Removes the faces inside the body from a file, since deal.II refuses such a file.
    *
    * @param text as scan_gmsh() has accepted it
    * @param filename for messages

@@ -9,7 +9,7 @@
 
 namespace perideal
 {
-  /// What a Gmsh file holds that deal.II's reader does not hand on.
+  /// Holds what a Gmsh file contains and deal.II's reader does not return.
   struct GmshContents
   {
     /// Name -> tag of the physical groups of cells (dimension dim).

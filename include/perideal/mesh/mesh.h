@@ -21,7 +21,7 @@ namespace perideal
   template <int dim>
   using InnerFaces = std::map<std::string, std::vector<std::vector<dealii::Point<dim>>>>;
 
-  /// The user's mesh: a p4est-distributed triangulation and the names of its groups.
+  /// Holds the user's mesh: a p4est-distributed triangulation and the names of its groups.
   template <int dim>
   class Mesh
   {

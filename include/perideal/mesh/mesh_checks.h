@@ -7,8 +7,8 @@
 namespace perideal
 {
   /**
-   * Refuses meshes that deal.II's Release build and p4est would take in
-   * silence and compute nonsense on, or crash: cells that are collapsed,
+   * Refuses meshes that deal.II's Release build and p4est would accept
+   * without a message, with wrong results or a crash: cells that are collapsed,
    * folded, not convex or flat (the Jacobian must be positive at every corner),
    * cells that lie on one another, and boundary groups with faces that are not
    * sides of a cell on the surface.
@@ -19,7 +19,7 @@ namespace perideal
   void check_coarse_mesh(const CoarseMesh<dim> &mesh);
 
   /**
-   * Refuses cells that refinement folded over: it moves vertices to curved
+   * Refuses cells that refinement has folded, since it moves vertices to curved
    * boundaries. Collective; @p origin is the mesh file or the generator.
    *
    * @throws InputError naming the first such cell.

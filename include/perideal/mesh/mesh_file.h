@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// A mesh file found and read.
+  /// Holds a mesh file that was found and read.
   struct MeshFile
   {
     /// Path under which it was found.

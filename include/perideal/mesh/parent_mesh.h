@@ -18,7 +18,7 @@ namespace perideal
   dealii::types::global_cell_index n_parent_cells(const Mesh<dim> &mesh);
 
   /**
-   * The mesh coarsened once: of each active cell of the mesh it has the parent
+   * Creates the mesh coarsened once: of each active cell of the mesh it has the parent
    * or, beside finer cells and where there is no parent, the cell itself. A
    * rank owns the cells of which it owns the (first) child in the mesh, so that
    * it finds the cell of each of its own by CellId. Collective.

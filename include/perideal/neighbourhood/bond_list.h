@@ -9,7 +9,7 @@
 namespace perideal
 {
   /**
-   * Every bond of this rank once: row i holds the bonds of owned node i with
+   * Lists every bond of this rank once: row i holds the bonds of owned node i with
    * owned nodes of a higher number and with ghosts (a bond cut by the partition
    * stands on both ranks). The near end of a bond is its row's node.
    *

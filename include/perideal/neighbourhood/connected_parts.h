@@ -12,8 +12,9 @@
 namespace perideal
 {
   /**
-   * What of a body hangs together. Parts are cells that share faces; bonds may join several of them, across
-   * gaps that are narrower than the horizon. The same on all ranks but for the nodes.
+   * Finds the disconnected bodies of a mesh. Parts are sets of cells connected by faces; bonds may join
+   * several of them to one body, across gaps that are narrower than the horizon. All ranks know the same
+   * numbers; nodes are those of each rank.
    */
   template <int dim>
   struct ConnectedParts

@@ -15,19 +15,28 @@ namespace perideal
   class VolumeRule;
 
   /**
-   * The families of the nodes of this rank by the union rule: j belongs to the
+   * Finds the families of the nodes of this rank by the union rule: j belongs to the
    * family of i when it lies within the horizon of i or i within that of j, for
    * spheres |x_j - x_i| <= max(horizon_i, horizon_j), so that every
    * bond has two ends (XOSB eq. 71). Where the cloud knows how far cells reach, families hold the cells that
    * horizons cut: those of which a volume rule counts a share, at either end.
    *
-   * Local numbers: owned nodes first, as in the cloud, then ghosts, the nodes of
-   * other ranks that share a bond with an owned one, by ascending global number.
+   * Local numbers, by which the arrays of the nodes go: owned nodes first, as in the cloud, then ghosts, the
+   * nodes of other ranks that share a bond with an owned one, by ascending global number.
    */
   template <int dim>
-  class Families
+  class Families : public NodeArrays<dim>
   {
   public:
+    using NodeArrays<dim>::position;
+    using NodeArrays<dim>::volume;
+    using NodeArrays<dim>::horizon;
+    using NodeArrays<dim>::material;
+    using NodeArrays<dim>::shape;
+    using NodeArrays<dim>::spacing;
+    using NodeArrays<dim>::cell_radius;
+    using NodeArrays<dim>::cell;
+
     /// Exchanges the halo and searches. Collective.
     /// @param rule how much of its members' volumes a family counts; null: all
     explicit Families(const NodeCloud<dim>                         &nodes,
@@ -52,7 +61,8 @@ namespace perideal
     /// Family sizes over all ranks.
     Statistics statistics() const { return sizes; }
 
-    /// Releases the lists of members, which take the most memory: begin() and end() are over, size() stays.
+    /// Releases the lists of members, which take the most memory: begin() and end() must not be called after
+    /// this, size() may.
     void release_members();
 
     /// Global number of a local node.
@@ -68,17 +78,6 @@ namespace perideal
     /// Bytes held on this rank.
     std::size_t memory_consumption() const;
 
-    /// Positions [m], volumes [m^3], horizons [m], materials of local nodes, ghosts included.
-    std::vector<dealii::Point<dim>>         position;
-    std::vector<double>                     volume;
-    std::vector<double>                     horizon;
-    std::vector<dealii::types::material_id> material;
-    /// Shapes of the horizons as in the cloud; empty where all are spheres.
-    std::vector<dealii::Tensor<2, dim>> shape;
-    /// Spacings of local nodes [m], and how far their cells reach [m] and the cells as in the cloud; ghosts
-    /// included.
-    std::vector<double>            spacing, cell_radius;
-    std::vector<CellVertices<dim>> cell;
     /// How much of members' volumes counts; null: all. volume_share() asks it.
     std::shared_ptr<const VolumeRule<dim>> volume_rule;
 

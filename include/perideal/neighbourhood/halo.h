@@ -9,7 +9,7 @@
 
 namespace perideal
 {
-  /// What one rank tells another about one of its nodes.
+  /// Holds what one rank sends another of one of its nodes.
   template <int dim>
   struct HaloNode
   {
@@ -34,8 +34,8 @@ namespace perideal
   };
 
   /**
-   * Nodes of other ranks that may share a bond with an owned one, ascending by
-   * global number. Any width of halo: ranks tell each other boxes around their
+   * Returns the nodes of other ranks that may share a bond with an owned one, ascending by
+   * global number. The halo may have any width: ranks tell each other boxes around their
    * nodes and send what lies within the larger horizon of a box. Collective.
    */
   template <int dim>

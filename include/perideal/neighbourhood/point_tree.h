@@ -11,7 +11,7 @@
 
 namespace perideal
 {
-  /// A box around some points and the largest horizon among them.
+  /// Bounds some points and the largest horizon among them.
   template <int dim>
   struct HorizonBox
   {
@@ -29,7 +29,7 @@ namespace perideal
   };
 
   /**
-   * A hierarchy of bounding boxes over points that are numbered along a
+   * Builds a hierarchy of bounding boxes over points that are numbered along a
    * space-filling curve: leaves are runs of consecutive points, so that nothing
    * is sorted or stored twice, and graded meshes cost no more than uniform ones
    * (cells of a fixed width would fill up where the mesh is fine).

@@ -34,7 +34,7 @@ namespace perideal
   };
 
   /**
-   * A crack that is there from the beginning: in 2-D a line through points, in 3-D a plane
+   * Cuts bonds along a crack that exists from the beginning: in 2-D a line through points, in 3-D a plane
    * polygon, or the faces of a group inside the mesh. Bonds that it crosses are cut, those through its tip or
    * edge included.
    */

@@ -16,7 +16,7 @@
 namespace perideal
 {
   /**
-   * The nodes of this rank's cells and of the cells around them, and which of
+   * Knows the nodes of this rank's cells and of the cells around them, and which of
    * them meet at each vertex of the mesh.
    *
    * Local numbers: owned nodes first, as in the cloud, then ghosts. They differ

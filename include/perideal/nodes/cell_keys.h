@@ -6,7 +6,7 @@
 
 namespace perideal
 {
-  /// One number for each owned node that tells its cell from all others of the mesh, for any number of ranks:
+  /// Returns for each owned node a number that identifies its cell in the mesh, for any number of ranks:
   /// that of the coarse cell, and the way down to its descendant.
   template <int dim>
   std::vector<std::uint64_t> cell_keys(const Mesh<dim> &mesh, const Nodes<dim> &nodes);

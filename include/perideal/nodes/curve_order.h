@@ -10,8 +10,8 @@
 
 namespace perideal
 {
-  /// Numbers of the points in the order in which a Hilbert curve visits them: those that follow each other
-  /// lie close, which the search for neighbours lives on.
+  /// Returns the numbers of the points in the order in which a Hilbert curve visits them. Consecutive points
+  /// lie close together, which the search for neighbours relies on.
   template <int dim>
   std::vector<LocalIndex> order_along_curve(const std::vector<dealii::Point<dim>> &points);
 } // namespace perideal

@@ -37,7 +37,7 @@ namespace perideal
     HorizonShape horizon_shape  = HorizonShape::automatic;
     /// How far nodes lie off the centroids, over the edges of their cells: at most half of this [-].
     double perturbation = 0.;
-    /// Whether the weights of families that are equal are made and kept once.
+    /// Whether identical families share their weights, which are then computed and stored once.
     bool share_equal_families = true;
 
     void declare(dealii::ParameterHandler &prm);
@@ -45,22 +45,10 @@ namespace perideal
     void check() const;
   };
 
-  /**
-   * Peridynamic nodes of this rank: what the neighbour search and the materials
-   * need to know of them. Arrays are indexed by the node's local number.
-   */
+  /// Holds what is known of each node, in arrays by its local number.
   template <int dim>
-  struct NodeCloud
+  struct NodeArrays
   {
-    LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
-
-    /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
-    /// cells that horizons cut, far enough for these.
-    dealii::Tensor<1, dim> reach(const LocalIndex i) const;
-
-    /// Sets first_global and n_global from the sizes on all ranks. Collective.
-    void number();
-
     /// Where the nodes are [m]; centroids of cells, unless they were perturbed.
     std::vector<dealii::Point<dim>> position;
     /// Volumes, in 2-D area times thickness [m^3].
@@ -73,18 +61,41 @@ namespace perideal
     /// The shape of the horizon, a map to the unit sphere: xi is within when
     /// |shape xi| <= 1 [1/m]. Empty where all horizons are spheres.
     std::vector<dealii::Tensor<2, dim>> shape;
-    /// Sets cell_radius and what follows from it. Horizons must be spheres. Collective.
-    void set_cell_radius(std::vector<double> radius);
-
     /// Material (cell group) of the node.
     std::vector<dealii::types::material_id> material;
     /// How far cells reach beyond their nodes [m], where the cells that a horizon cuts belong to the family.
     /// Empty: families hold the nodes within horizons.
     std::vector<double> cell_radius;
+    /// The nodes' cells; empty where no volume rule needs them.
+    std::vector<CellVertices<dim>> cell;
+  };
+
+  /**
+   * Holds the peridynamic nodes of this rank: what the neighbour search and the materials
+   * need of them. Arrays are indexed by the node's local number.
+   */
+  template <int dim>
+  struct NodeCloud : NodeArrays<dim>
+  {
+    using NodeArrays<dim>::position;
+    using NodeArrays<dim>::horizon;
+    using NodeArrays<dim>::shape;
+    using NodeArrays<dim>::cell_radius;
+
+    LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
+
+    /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
+    /// cells that horizons cut, far enough for these.
+    dealii::Tensor<1, dim> reach(const LocalIndex i) const;
+
+    /// Sets first_global and n_global from the sizes on all ranks. Collective.
+    void number();
+
+    /// Sets cell_radius and what follows from it. Horizons must be spheres. Collective.
+    void set_cell_radius(std::vector<double> radius);
+
     /// The largest cell_radius over the horizon of all ranks [-].
     double margin = 0;
-    /// The nodes' cells; empty where has_cells is false.
-    std::vector<CellVertices<dim>> cell;
     /// Whether neighbours need to know cells. The same on all ranks.
     bool has_cells = false;
 
@@ -97,7 +108,7 @@ namespace perideal
   };
 
   /**
-   * The nodes of a mesh, one for every locally owned cell, ordered along a
+   * Creates the nodes of a mesh, one for every locally owned cell, ordered along a
    * space-filling curve so that families lie close in memory.
    */
   template <int dim>

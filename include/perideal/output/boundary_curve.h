@@ -12,7 +12,7 @@
 namespace perideal
 {
   /**
-   * A boundary's natural order, for plots of fields over it. The order does not
+   * Sorts points along a boundary, for plots of fields over it. The order does not
    * depend on the number of ranks.
    *
    * A boundary whose outward normals cancel in the x-y plane (a hole, a whole

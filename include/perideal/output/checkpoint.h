@@ -31,7 +31,7 @@ namespace perideal
     std::vector<double>   values;
   };
 
-  /// What a stopped run needs to go on.
+  /// Holds what a stopped run needs to continue.
   struct Checkpoint
   {
     /// Numbers and texts that all ranks agree on.

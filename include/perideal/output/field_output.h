@@ -17,7 +17,7 @@
 
 namespace perideal
 {
-  /// How many sets of fields a run leaves.
+  /// How many sets of fields a run writes.
   enum class OutputSteps
   {
     /// One, solution.vtu; a later one takes its place.
@@ -27,12 +27,12 @@ namespace perideal
   };
 
   /**
-   * Nodal fields on the cells of the user's own mesh, for ParaView: one
+   * Writes nodal fields on the cells of the user's own mesh, for ParaView: one
    * compressed .vtu a step, written by all ranks together, and solution.pvd,
    * which lists the steps with their times and is valid at any moment.
    *
-   * A .vtu holds single precision, which serves for looking; history and
-   * profiles hold the numbers.
+   * A .vtu holds single precision, for visualisation; history and
+   * profiles hold all digits.
    */
   template <int dim>
   class FieldOutput

@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// Rank 0 gets the values of all ranks, one rank after the other. Collective.
+  /// Returns on rank 0 the values of all ranks, one rank after the other. Collective.
   template <typename T>
   std::vector<T> gather(const std::vector<T> &mine, MPI_Comm communicator)
   {

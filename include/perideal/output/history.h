@@ -15,7 +15,7 @@
 namespace perideal
 {
   /**
-   * Numbers that change from step to step (energies, reactions, probes): a row
+   * Records numbers that change from step to step (energies, reactions, probes): a row
    * a step in history.csv, which is on disk as soon as the row ends, and at the
    * end the same columns as one-dimensional data sets in history.h5.
    *

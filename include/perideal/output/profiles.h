@@ -14,7 +14,7 @@
 
 namespace perideal
 {
-  /// Some nodes in an order, for plots of fields over it.
+  /// Writes the values of some nodes in a given order, for plots of fields over it.
   template <int dim>
   class Profile
   {
@@ -47,7 +47,7 @@ namespace perideal
     std::vector<dealii::Point<dim>> points;
   };
 
-  /// The nodes along a boundary in the order of its curve: those whose cells have a face on it.
+  /// Writes the nodes along a boundary in the order of its curve: those whose cells have a face on it.
   template <int dim>
   class BoundaryProfile : public Profile<dim>
   {
@@ -70,7 +70,7 @@ namespace perideal
     BoundaryCurve<dim> curve;
   };
 
-  /// The nodes along a straight line through the body: those whose cells it passes through, by their
+  /// Writes the nodes along a straight line through the body: those whose cells it passes through, by their
   /// distance from its beginning along it.
   template <int dim>
   class LineProfile : public Profile<dim>

@@ -19,7 +19,7 @@ namespace perideal
    */
   void write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator);
 
-  /// A table for the screen, columns aligned: the first to the left, the
+  /// Writes a table for the screen, columns aligned: the first to the left, the
   /// others, which hold numbers, to the right. Rows have as many cells as the header.
   std::string report_table(const std::vector<std::string>              &header,
                            const std::vector<std::vector<std::string>> &rows);
@@ -27,7 +27,7 @@ namespace perideal
   /// A number for such a table, four digits; "-" where it is not finite.
   std::string short_number(const double value);
 
-  /// Largest resident memory so far, the sum of all ranks [B]. Collective.
+  /// Returns the largest resident memory so far, the sum of all ranks [B]. Collective.
   std::uint64_t peak_memory_bytes(MPI_Comm communicator);
 } // namespace perideal
 

@@ -52,7 +52,7 @@ namespace perideal
     /**
      * Finer and finer points. Levels from 0; of Gauss points there is a second level for the innermost
      * direction, along which limits are exact and have no kinks.
-     * @return false: there would be too many
+     * @return false where there would be too many points
      */
     bool make(const unsigned int level, const unsigned int inner_level);
 

@@ -10,7 +10,7 @@
 
 namespace perideal
 {
-  /// Lets the nodes know of their cells what the scheme asks for, before families are made. Collective.
+  /// Stores with the nodes what the scheme needs of their cells, before families are made. Collective.
   template <int dim>
   void prepare_cells(const QuadratureParameters &parameters, const Mesh<dim> &mesh, Nodes<dim> &nodes);
 
@@ -18,7 +18,8 @@ namespace perideal
   template <int dim>
   std::shared_ptr<const VolumeRule<dim>> create_volume_rule(const QuadratureParameters &parameters);
 
-  /// What of a square or cube lies this side of a plane across it, by how many widths its middle does [-].
+  /// Returns the share of a square or cube on this side of a plane across it, from the distance of its middle
+  /// to the plane in widths [-].
   inline double clamped_share(const double widths)
   {
     return std::min(1., std::max(0., widths + 0.5));

@@ -10,7 +10,7 @@
 
 namespace perideal
 {
-  /// Bonds of the body as it is without nodes, with which
+  /// Samples the bonds of the continuous body, with which
   ///
   ///     sum weight f(xi) = int_0^d ds int_{(x' - x).n >= 0, |xi| <= d} f dV',    xi = x' - near, near = x -
   ///     s n:

@@ -10,7 +10,7 @@
 namespace perideal
 {
   /**
-   * Fixed Gauss points in the cells of nodes (QUAD 3.3): the same for every bond to a cell, n in each
+   * Places fixed Gauss points in the cells of nodes (QUAD 3.3): the same for every bond to a cell, n in each
    * direction. A point g stands for a subcell of volume V_g = w_g |det J| and width D_g, the edge of the
    * square or cube of this measure; where a horizon cuts subcells, it counts
    *
@@ -25,14 +25,14 @@ namespace perideal
   class GaussPoints
   {
   public:
-    /// The points alone. Collective.
+    /// Places the points; displacements need a further call. Collective.
     /// @param n points in each direction
     GaussPoints(const Mesh<dim>     &mesh,
                 const Nodes<dim>    &nodes,
                 const Families<dim> &families,
                 const unsigned int   n);
 
-    /// Finds what gives them displacements. Collective.
+    /// Finds the weights with which nodes give displacements at the points. Collective.
     /// @param support_radius of moving least squares, in spacings of the cell [-]
     /// @throws InputError on all ranks where the nodes around a point make no quadratic fit.
     void fit(const Nodes<dim> &nodes, const double support_radius);

@@ -12,8 +12,8 @@
 namespace perideal
 {
   /**
-   * Moving least squares of order two (QUAD 3.3.2): weights phi_k with which values at scattered points give
-   * the value at x of the quadratic fit about x,
+   * Fits moving least squares of order two (QUAD 3.3.2): finds the weights phi_k with which values at
+   * scattered points give the value at x of the quadratic fit about x,
    *
    *     v(x) = sum_k phi_k(x) v_k,    phi_k = W(d_k) p(x_k).A^-1 p(x),    A = sum_k W(d_k) p(x_k) p(x_k)^T,
    *
@@ -48,7 +48,7 @@ namespace perideal
   private:
     /// The monomials of (point - x)/radius.
     static void evaluate_basis(const dealii::Tensor<1, dim> &distance, std::vector<double> &basis);
-    /// Largest miss of the reproducing conditions.
+    /// Returns the largest error of the reproducing conditions.
     double consistency_error() const;
 
     MomentMatrix           moments;

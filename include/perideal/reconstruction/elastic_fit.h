@@ -13,7 +13,7 @@
 namespace perideal
 {
   /**
-   * The cubic displacement that fits best, by weighted least squares, what is
+   * Fits a cubic displacement by weighted least squares to what is
    * known of an elastic body around a point: displacements, tractions, and that
    * stresses are in equilibrium,
    *
@@ -60,7 +60,8 @@ namespace perideal
       dealii::Tensor<1, dim> displacement;
       dealii::Tensor<2, dim> gradient;
     };
-    /// Where the equations leave coefficients open, those of high degree are small.
+    /// Solves the equations; coefficients that they do not determine are small, the more so the higher their
+    /// degree.
     Result solve() const;
 
   private:

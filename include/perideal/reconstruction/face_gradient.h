@@ -39,7 +39,7 @@ namespace perideal
   };
 
   /**
-   * The gradient of a nodal field as the mean over each cell, from values at its faces:
+   * Computes the gradient of a nodal field as the mean over each cell, from values at its faces:
    *
    *     G_i u = 1/V_i sum_f v_f (x) A_f,    v_f = sum_k phi_fk u_k,
    *

@@ -11,7 +11,7 @@
 namespace perideal
 {
   /**
-   * Moving least squares of order one: weights phi_k with which the values at
+   * Fits moving least squares of order one: finds the weights phi_k with which the values at
    * scattered points give the value of their best linear fit at points around a
    * centre,
    *

@@ -13,7 +13,7 @@
 namespace perideal
 {
   /**
-   * Values at points of the body or its boundary from those of the nodes around.
+   * Interpolates values at points of the body or its boundary from those of the nodes around.
    *
    * v(x) is the moving least squares through the vertex neighbours, of one material, of the cell that x lies
    * in; where it lies on a face, an edge or a vertex, the mean over the cells that share it. Linear fields

@@ -18,13 +18,12 @@ namespace perideal
    *
    * Damping c = 2 omega (Underwood), with omega^2 = d.Kd/d.Md, where K d is what the forces changed by
    * during the motion d since some 1/omega iterations ago; 0 where that is negative, at most 1.9. XOSB's
-   * quotients by component and iteration (eqs. 77, 78), which divide by velocities, take as many iterations
-   * until rounding spoils them: 1,152 nodes under a strain of 1e-7 came to a residual of 1e-7 in 620
-   * iterations, by eq. 77 not in 6,000. Masses by node, the largest of its diagonal, took 1 to 4 per cent
-   * more iterations than masses by component, and ten Lanczos steps once underestimated their lambda.
+   * quotients by component and iteration (eqs. 77, 78), which divide by velocities, are sensitive to rounding
+   * near the equilibrium. Masses differ by component, which takes fewer iterations than masses by node.
    *
-   * The iterations grow with the length of a body in cells: 212, 444 and 892 for plates with 1,920, 7,680
-   * and 30,720 nodes to 1e-6, 2.4 to 2.5 times those of conjugate gradients with block Jacobi.
+   * The iterations grow with the length of a body in cells (figures: tests/performance/details.md).
+   *
+   *
    *
    * A step begins as the last one went on, unless bonds broke in it; after a break the body relaxes from
    * rest.

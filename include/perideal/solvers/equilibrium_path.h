@@ -15,7 +15,7 @@
 
 namespace perideal
 {
-  /// What the search for the equilibrium of one load step did.
+  /// Describes the search for the equilibrium of one load step.
   struct EquilibriumStep
   {
     bool         converged  = false;
@@ -40,10 +40,10 @@ namespace perideal
   };
 
   /**
-   * The equilibria of the nonlinear force of bonds along load steps, whatever finds them: when the body is
-   * at rest, when bonds break, and what became of the work.
+   * Follows the equilibria of the nonlinear force of bonds along load steps, whatever method finds them:
+   * decides when the body is at rest and when bonds break, and keeps the energy balance.
    *
-   * Bonds are judged at equilibrium only, since what is between is no motion of the body: where the
+   * Bonds are judged at equilibrium only, since the iterates between are no motion of the body: where the
    * residual has come below 1e-4, and again below the tolerance, all bonds beyond their limit break at
    * once; equilibrium is then sought again, until none breaks.
    */
@@ -88,15 +88,15 @@ namespace perideal
     /// Those at prescribed values of faces [N], by entry.
     const std::vector<dealii::Tensor<1, dim>> &face_reaction() const { return last.face_support_force; }
     GlobalIndex                                n_broken() const { return breaks.total; }
-    /// Nodes of all ranks that came loose, and are held where they were.
+    /// Number of nodes of all ranks that are disconnected from the supports, and held where they were.
     virtual GlobalIndex n_floating() const { return 0; }
 
-    /// Goes back to the last equilibrium, for another attempt at the next; what broke stays broken.
+    /// Restores the last equilibrium, for another attempt at the next; broken bonds stay broken.
     void restore();
 
-    /// Leaves in a checkpoint what the next step needs of the last equilibrium. Collective.
+    /// Writes into a checkpoint what the next step needs of the last equilibrium. Collective.
     virtual void save(Checkpoint &checkpoint) const;
-    /// Goes on from there, with the bonds that broke until then broken. Collective.
+    /// Continues from a checkpoint, with the bonds broken that broke before it. Collective.
     /// @param external force of the loads at the time of the checkpoint [N]
     virtual void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time);
 

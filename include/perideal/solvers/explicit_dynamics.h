@@ -22,12 +22,13 @@ namespace perideal
     /// Set free by breaking bonds; taken by damping; put in by loads and supports.
     double dissipated = 0, damped = 0, external = 0;
 
-    /// What was put in less what is there [J]: zero but for the error of the integration.
+    /// Returns the energy balance error [J]: the energy put in less the energy there is and the energy lost;
+    /// zero but for the error of the integration.
     double imbalance() const { return external - (kinetic + strain + contact + dissipated + damped); }
   };
 
   /**
-   * Central differences: velocities at half steps, v(+) = v(-) + dt F/m, u = u + dt v(+)
+   * Integrates motion by central differences: velocities at half steps, v(+) = v(-) + dt F/m, u = u + dt v(+)
    * (symplectic Euler, XOSB eq. 74). Started half a step back it is velocity Verlet.
    *
    * The energy that this conserves is m v(-).v(+)/2 + U; the work of loads, supports and damping is
@@ -63,13 +64,12 @@ namespace perideal
     /// @param external force of the loads [N]
     void evaluate(const NodalVector &external);
 
-    /// Moves on by one step.
+    /// Advances by one step.
     void advance();
 
-    /// This rank's shares of the energies so far [J], which their sum over ranks is to be kept of in a
-    /// checkpoint.
+    /// Returns this rank's shares of the energies so far [J]; a checkpoint keeps their sums over the ranks.
     std::vector<double> energy_shares() const;
-    /// Goes on with the displacement and velocity given, as after advance().
+    /// Continues with the displacement and velocity given, as after advance().
     /// @param energy_shares as they were; another number of ranks may have other shares of the same sums
     void resume(const unsigned int         step,
                 const GlobalIndex          n_broken,

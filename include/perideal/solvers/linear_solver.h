@@ -16,7 +16,7 @@
 
 namespace perideal
 {
-  /// The preconditioner that a scene gets.
+  /// Holds the preconditioner that was chosen for a scene.
   struct PreconditionerChoice
   {
     PreconditionerName preconditioner = PreconditionerName::automatic;
@@ -26,7 +26,7 @@ namespace perideal
     std::string reason;
   };
 
-  /// What a linear solve did.
+  /// Describes a linear solve.
   struct LinearSolve
   {
     unsigned int iterations = 0;
@@ -36,7 +36,7 @@ namespace perideal
   };
 
   /**
-   * Solves the system of a linear static scene again and again: operator and
+   * Solves the system of a linear static scene for many right-hand sides: operator and
    * preconditioner are set up once.
    */
   template <int dim>
@@ -54,7 +54,7 @@ namespace perideal
     /// "cg" with its preconditioner and the like, for the banner.
     virtual std::string name() const = 0;
 
-    /// From now on solves end at this residual over the first one.
+    /// Sets the residual over the first one at which later solves end.
     void set_tolerance(const double value) { tolerance = value; }
 
   protected:

@@ -10,9 +10,9 @@
 namespace perideal
 {
   /**
-   * Equilibrium by Newton-Raphson (PDBC Appendix B) with the tangent in closed form. Loads are dead. In
-   * the first iteration of a step the held components move by their increments, and the free ones by the
-   * linear prediction from where the last step ended.
+   * Finds equilibria by Newton-Raphson (PDBC Appendix B) with the tangent in closed form. Loads are dead
+   * loads. In the first iteration of a step the held components move by their increments, and the free ones
+   * by the linear prediction from where the last step ended.
    *
    * Linear systems are solved to a tenth of the relative residual of the equilibrium, at most to 1e-3, so
    * that the residual they leave goes with the square of it, below the one that Newton's method leaves
@@ -24,17 +24,16 @@ namespace perideal
    * Otherwise the step is shortened towards d.r = 0. Where d.r is not positive at the start, the tangent is
    * not positive definite there and |r| alone counts.
    *
-   * Where bonds break, pieces may come loose, which no tangent holds: springs of a 1e-8th of their stiffness
-   * hold each of their nodes where it was then. No load acts on them but what they are loaded with
-   * themselves.
+   * Where bonds break, fragments may become disconnected from the supports, which makes the tangent singular:
+   * springs of 1e-8 of their stiffness hold each of their nodes where it was then. No load acts on them but
+   * their own.
    *
-   * The motions that a scene leaves free are taken from residuals and steps, as in statics: in their
+   * The motions that a scene leaves free are removed from residuals and steps, as in statics: in their
    * direction, the balance is that of the undeformed body.
    *
-   * KINSOL through deal.II 9.4 does not serve: in a release build it returned as from a solution when
-   * SUNDIALS had given up (at the limit of iterations, and at its limit of the step, 1 by default for a body
-   * that starts from rest), it stops by a maximum norm fixed at the beginning, where reactions change, and
-   * its line search lowers |r| only, with every force computed twice.
+   * KINSOL through deal.II 9.4 is not used: in a release build it does not report that SUNDIALS failed, it
+   * stops by a maximum norm fixed at the beginning although reactions change, and its line search lowers |r|
+   * only and computes every force twice.
    */
   template <int dim>
   class NewtonSolver : public EquilibriumPath<dim>
@@ -42,7 +41,7 @@ namespace perideal
   public:
     using typename EquilibriumPath<dim>::Controls;
 
-    /// Tells by owned node what came loose of the supports. Collective.
+    /// Tells which owned nodes are disconnected from the supports. Collective.
     using FindFloating = std::function<std::vector<bool>()>;
 
     /// @param tangent of the force, the operator behind @p system and @p linear. The arguments must
@@ -73,7 +72,7 @@ namespace perideal
     bool                                 is_in_place() const override { return in_place; }
     bool iterate(const NodalVector &external, EquilibriumStep &result) override;
     void forget_motion() override { anchor(); }
-    /// Holds what came loose. Collective.
+    /// Holds the nodes that are disconnected from the supports. Collective.
     void anchor();
 
     /// External and internal force of free components, motions that are free taken out.
@@ -90,7 +89,7 @@ namespace perideal
     TangentSolver<dim>       &linear;
     const NullSpace<dim>     &null_space;
 
-    /// The springs that hold what came loose: where they are at rest [m], and how many nodes they hold.
+    /// The springs that hold disconnected nodes: where they are at rest [m], and how many nodes they hold.
     struct Anchors
     {
       FindFloating find_floating;

@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// What the cost of a static solve is estimated from; numbers of all ranks.
+  /// Holds what the cost of a static solve is estimated from; numbers of all ranks.
   struct SolveSize
   {
     unsigned int dim = 2;
@@ -32,8 +32,8 @@ namespace perideal
                           const GlobalIndex               n_bonds,
                           const bool                      consistent);
 
-  /// What a static solve is expected to take: iterations, and work in bond
-  /// visits (one bond's share of an iteration, about 7 ns of one core).
+  /// Estimates the cost of a static solve: iterations, and work in bond
+  /// visits (one bond's share of an iteration).
   struct SolveEstimate
   {
     double iterations = 0, set_up = 0, solve = 0;
@@ -42,19 +42,19 @@ namespace perideal
   };
 
   /**
-   * Krylov iterations with block Jacobi: their number follows from the bodies'
-   * size in horizons, for the longest waves are the slowest to settle, and from
+   * Estimates the Krylov iterations with block Jacobi: their number follows from the body's
+   * size in horizons, since the longest waves converge most slowly, and from
    * the digits wanted. Slender bodies in tension take a third of it, in bending all.
    */
   SolveEstimate estimate_block_jacobi(const SolveSize &size, const double tolerance);
 
   /// The same with the auxiliary space on a mesh (not automatic), whose
-  /// iterations depend on the tolerance alone, but whose set-up is dear.
+  /// iterations depend on the tolerance alone, but whose set-up is expensive.
   SolveEstimate
   estimate_auxiliary(const SolveSize &size, const AuxiliaryMesh auxiliary_mesh, const double tolerance);
 
   /**
-   * Preconditioner and auxiliary mesh for the parameters: those they name, and
+   * Chooses preconditioner and auxiliary mesh for the parameters: those they name, and
    * for "automatic" those with the least estimated work.
    * @throws InputError for the parent mesh of a mesh that was never refined.
    */

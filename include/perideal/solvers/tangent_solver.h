@@ -40,7 +40,7 @@ namespace perideal
 
     /// What the next step needs to know of earlier solves.
     nlohmann::ordered_json save() const;
-    /// Goes on from there.
+    /// Continues from what save() returned.
     void resume(const nlohmann::ordered_json &state);
 
   private:

@@ -14,7 +14,7 @@
 namespace perideal
 {
   /**
-   * The force of the bonds in the deformed body, geometrically nonlinear: in the
+   * Computes the force of the bonds in the deformed body, geometrically nonlinear: in the
    * terms of FamilyCoefficients, with e = |y_j - y_i| - |xi| and eps = |xi| e,
    *
    *     F = ( sum_a weight[a]_j A_a + stiffness_j eps_j ) |xi| (y_j - y_i)/|y_j - y_i|,
@@ -31,7 +31,7 @@ namespace perideal
     /// Stretch at which a bond between two local nodes breaks [-]; infinity: never.
     using CriticalStretch = std::function<double(const LocalIndex, const LocalIndex)>;
 
-    /// From now on bonds break.
+    /// Makes bonds breakable from now on.
     virtual void set_critical_stretch(const CriticalStretch &stretch) = 0;
 
     /// Whether compute() looks for bonds to break, as it does at first. A solver that goes through
@@ -94,7 +94,7 @@ namespace perideal
      */
     virtual double released_energy(const NodalVector &velocity, const double time_step) const = 0;
 
-    /// A bond that carries nothing any more.
+    /// A bond that carries no force any more.
     struct LostBond
     {
       BondIndex  slot;
@@ -128,7 +128,7 @@ namespace perideal
     std::vector<LostBond>                                      lost;
   };
 
-  /// The force of weighed bonds; it keeps its own copy of their weights.
+  /// Creates the force of weighed bonds; it keeps its own copy of their weights.
   template <int dim>
   std::unique_ptr<BondForce<dim>> create_bond_force(const BondWeights<dim> &weights);
 } // namespace perideal

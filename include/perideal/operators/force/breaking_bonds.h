@@ -14,8 +14,8 @@
 namespace perideal
 {
   /**
-   * What every BondForce has but the forces: the nodes where they are, the bonds with their lengths at rest
-   * and the stretches at which they break, and what became of them.
+   * Holds what every BondForce has besides the forces: the present positions of the nodes, the bonds with
+   * their lengths at rest, the stretches at which they break, and which of them broke.
    */
   template <int dim>
   class BreakingBonds : public BondForce<dim>

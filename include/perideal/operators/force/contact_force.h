@@ -12,7 +12,7 @@
 namespace perideal
 {
   /**
-   * Short-range force between nodes without an intact bond, which keeps fragments from passing
+   * Computes the short-range force between nodes without an intact bond, which keeps fragments from passing
    * through each other (Macek & Silling 2007, Finite Elements in Analysis and Design 43): nodes that are
    * nearer than d_ij are pushed apart along the line between them, with the energy
    *
@@ -52,7 +52,7 @@ namespace perideal
 
     std::size_t memory_consumption() const;
 
-    /// Makes its lists anew in the next add(), as a run does that goes on from here.
+    /// Makes the lists anew in the next add(), as a run does that continues from a checkpoint.
     void forget_lists() { lists.are_made = false; }
 
     /// Energy of the contacts of all ranks at the last add() [J]. Collective.

@@ -15,13 +15,14 @@
 namespace perideal
 {
   /**
-   * The force of the correspondence model in the deformed body, - dU/du of CorrespondenceRows. Bonds break
-   * by stress: that of a bond is the mean of the Cauchy stresses at its ends (VNOSB 16). Of the bonds beyond
-   * their strength those break at once that are within a tenth of the farthest: what the others bear, the
-   * new crack may relieve them of.
+   * Computes the force of the correspondence model in the deformed body, - dU/du of CorrespondenceRows. Bonds
+   * break by stress: that of a bond is the mean of the Cauchy stresses at its ends (VNOSB 16). Of the bonds
+   * beyond their strength those break at once that are within a tenth of the farthest: what the others bear,
+   * the new crack may relieve them of.
    *
-   * A family that has lost bonds has the gradient of those that are left (20); where they span no space any
-   * more, the node bears no stress of its own, and hangs by the penalty of its neighbours.
+   * A family that has lost bonds has the gradient of the remaining ones (20). Where these no longer span
+   * space, the node bears no stress of its own, and only the penalty of its neighbours connects it with the
+   * body.
    */
   template <int dim>
   class CorrespondenceForce : public BreakingBonds<dim>
@@ -35,7 +36,7 @@ namespace perideal
     using Utilisation =
       std::function<double(const dealii::types::material_id, const dealii::SymmetricTensor<2, 3> &)>;
 
-    /// From now on bonds break by stress.
+    /// Makes bonds break by stress from now on.
     /// @param can_break of two local nodes
     void set_strength(const Utilisation                                             &utilisation,
                       const std::function<bool(const LocalIndex, const LocalIndex)> &can_break);

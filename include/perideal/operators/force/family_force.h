@@ -22,10 +22,11 @@ namespace perideal
   }
 
   /**
-   * The nonlinear loops for models of one family shape. Weights are kept in single precision, which
-   * halves what the loops load; it is one perturbation of 6e-8 of the material, the same in forces and
-   * energy. They are kept over the largest, so that it is also the same in all units of length and force, and
-   * nothing leaves the range of single precision. Lengths, sums and forces are in double precision.
+   * Computes the nonlinear force of models of one family shape. Weights are kept in single precision, which
+   * halves what the loops load; this perturbs the material by the rounding of single precision, in forces and
+   * energy alike. They are kept over the largest, so that it is also the same in all units of length and
+   * force, and nothing leaves the range of single precision. Lengths, sums and forces are in double
+   * precision.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
   class FamilyForce : public BreakingBonds<dim>

@@ -11,8 +11,8 @@
 namespace perideal
 {
   /**
-   * Viscous force between bonded nodes along the bond, by which a node's motion against its family dies
-   * out at a rate c [1/s]:
+   * Computes the viscous force between bonded nodes along the bond, by which a node's motion against its
+   * family dies out at a rate c [1/s]:
    *
    *     F_i = sum_j g_ij ((v_j - v_i).n) n,   g_ij = dim c/2 (m_i V_j/V(H_i) + m_j V_i/V(H_j)),
    *
@@ -39,8 +39,8 @@ namespace perideal
     void compute(NodalVector &force, const NodalVector &velocity, const BondForce<dim> &bonds);
 
     /**
-     * Bound of the largest eigenvalue of M^-1 C at rest [1/s], about 2 c. With velocities half a step
-     * old, central differences are stable for
+     * Returns an upper bound of the largest eigenvalue of M^-1 C at rest [1/s], about 2 c. With velocities
+     * half a step old, central differences are stable for
      *
      *     omega^2 dt^2 + 2 gamma dt < 4,
      *

@@ -15,7 +15,7 @@
 namespace perideal
 {
   /**
-   * Which rows of a bond list have anything to compute, in blocks of consecutive
+   * Knows which rows of a bond list have anything to compute, in blocks of consecutive
    * rows: where a node and all its neighbours are still exactly where they were, forces are
    * exactly zero. A block that a wave has reached stays awake.
    */
@@ -28,7 +28,7 @@ namespace perideal
     template <int dim>
     RestRegions(const Families<dim> &families, const BondList &bonds, const bool through_states);
 
-    /// Looks at the nodes where all were at rest. Collective.
+    /// Looks for motion in the blocks that were at rest. Collective.
     /// @param has_moved of a local node
     template <typename HasMoved>
     void update(const HasMoved &has_moved);

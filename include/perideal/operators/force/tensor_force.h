@@ -10,10 +10,10 @@
 namespace perideal
 {
   /**
-   * The force of bonds with tensors for stiffness, TIPD (14), (37): linear in the displacement, F = tensor
-   * (u_j - u_i), in bonds that break at a stretch of the deformed bond, (|y_j - y_i| - |xi|)/|xi|. Small
-   * rotations only: large ones strain the bonds. Tensors are kept in single precision, as FamilyForce keeps
-   * its weights.
+   * Computes the force of bonds with tensors for stiffness, TIPD (14), (37): linear in the displacement, F =
+   * tensor (u_j - u_i), in bonds that break at a stretch of the deformed bond, (|y_j - y_i| - |xi|)/|xi|.
+   * Small rotations only: large ones strain the bonds. Tensors are kept in single precision, as FamilyForce
+   * keeps its weights.
    */
   template <int dim>
   class TensorForce : public BreakingBonds<dim>

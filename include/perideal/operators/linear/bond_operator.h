@@ -15,9 +15,9 @@
 namespace perideal
 {
   /**
-   * The linear internal force of a bond model, K u, over all nodes of this rank
-   * (fictitious ones included), matrix-free. Boundary conditions are none of
-   * its business.
+   * Applies the linear internal force of a bond model, K u, over all nodes of this rank
+   * (fictitious ones included), matrix-free. Boundary conditions are
+   * ConstrainedOperator's.
    */
   template <int dim>
   class BondOperator
@@ -64,7 +64,7 @@ namespace perideal
 
     virtual bool is_symmetric() const = 0;
 
-    /// Families of all ranks whose weights were not as the model wants them.
+    /// Number of families of all ranks whose weights do not meet the model's conditions.
     FamilyCounts counts;
     /// What became of each owned family.
     std::vector<FamilyReport> reports;
@@ -78,7 +78,7 @@ namespace perideal
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
   };
 
-  /// The linear operator of weighed bonds.
+  /// Creates the linear operator of weighed bonds.
   template <int dim>
   std::unique_ptr<BondOperator<dim>>
   create_bond_operator(const std::shared_ptr<const BondWeights<dim>> &weights);

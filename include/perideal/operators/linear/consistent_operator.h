@@ -21,7 +21,7 @@
 namespace perideal
 {
   /**
-   * The internal force of the consistent form (materials/consistent.h),
+   * Applies the internal force of the consistent form (materials/consistent.h),
    *
    *     eps_i = sym G_i u,   r_ij = xi.(u_j - u_i) - xi.eps_i xi,
    *     T_i   = V_i sigma(eps_i) - sum_j b_ij r_ij xi (x) xi,

@@ -12,7 +12,7 @@
 namespace perideal
 {
   /**
-   * The derivative of CorrespondenceForce, negative as that of a force that resists: the Hessian of the
+   * Applies the derivative of CorrespondenceForce, with the sign of a resisting force: the Hessian of the
    * energy of CorrespondenceRows with dP/dF of the law at each node. Until something was linearised it is
    * that of the body at rest, which is linear elasticity whatever the law.
    */

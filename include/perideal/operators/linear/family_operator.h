@@ -30,7 +30,7 @@ namespace perideal
   };
 
   /**
-   * The linear loops for models of one family shape. The vector of a bond is recomputed from
+   * Applies the linear internal force of models of one family shape. The vector of a bond is recomputed from
    * the positions, which is faster than loading it.
    *
    * The same loops make the tangent in the deformed body: the vector there is p = scale (y_j - y_i) for xi,

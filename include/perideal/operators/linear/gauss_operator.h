@@ -20,7 +20,7 @@ namespace perideal
   };
 
   /**
-   * The linear force of bond-based peridynamics with its integral taken at the Gauss points of cells
+   * Applies the linear force of bond-based peridynamics with its integral taken at the Gauss points of cells
    * (QUAD (3.15), with the volume once):
    *
    *     F_i = -V_i sum_j sum_g c beta_g V_g xi (xi . (u_g - u_i))/|xi|^3,    xi = x_g - x_i,

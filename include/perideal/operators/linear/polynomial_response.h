@@ -15,14 +15,14 @@
 namespace perideal
 {
   /**
-   * The forces K T of a bond operator on each owned node when the whole body displaces by a polynomial T of
-   * second degree about it. A family that is whole has none under a uniform strain, and under a strain that
-   * varies those of a body of the stiffness that its bonds have by their own quadrature,
+   * Computes the forces K T of a bond operator on each owned node when the whole body displaces by a
+   * polynomial T of second degree about it. A family that is whole has none under a uniform strain, and under
+   * a strain that varies those of a body of the stiffness that its bonds have by their own quadrature,
    *
    *     (K T)_i = -V_i div(C:grad T),
    *
-   * from which that stiffness is found. Lattices of few cells a horizon have another one than the material:
-   * 5 per cent in plane stress with 3.015 cells and one point a bond.
+   * from which that stiffness is found. On lattices with few cells a horizon it differs from the material's
+   * by some per cent.
    */
   template <int dim>
   class PolynomialResponse

@@ -14,7 +14,7 @@
 namespace perideal
 {
   /**
-   * Tensor-involved bonds with what they lack at surfaces: at a free surface their natural condition is
+   * Adds to tensor-involved bonds what they lack at surfaces: at a free surface their natural condition is
    * (S : grad u) n = 0 in the place of (C : eps) n = 0. The difference in energy,
    *
    *     1/2 sum_i V_i (G_i u) : (C - S) : (G_i u),

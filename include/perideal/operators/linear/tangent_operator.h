@@ -10,8 +10,8 @@
 namespace perideal
 {
   /**
-   * The derivative of a BondForce with respect to the displacement (PDBC eq. B.4), negative as that of a
-   * force that resists, in closed form and matrix-free. With p = (|xi|/|y_j - y_i|) (y_j - y_i), the
+   * Applies the derivative of a BondForce with respect to the displacement (PDBC eq. B.4), with the sign of a
+   * resisting force, in closed form and matrix-free. With p = (|xi|/|y_j - y_i|) (y_j - y_i), the
    * magnitude m = sum_a weight[a]_j A_a + stiffness eps and g = m |xi|/|y_j - y_i|, a bond's force m p
    * changes under d u by
    *
@@ -21,8 +21,8 @@ namespace perideal
    * where the sums of families change by d s_a = sum_j sum[a]_j p.(du_j - du_i). Bonds that were cut or
    * broke carry nothing.
    *
-   * The weights are in double precision, those of the force in single: the tangent is off by 6e-8 of the
-   * material.
+   * The weights are in double precision, those of the force in single: the tangent is exact up to the
+   * rounding of the latter.
    */
   template <int dim>
   class TangentOperator : public BondOperator<dim>

@@ -13,7 +13,7 @@
 
 namespace perideal
 {
-  /// The linear loop for models with bond tensors: each bond once, F = tensor (u_j - u_i).
+  /// Applies the linear force of models with bond tensors: each bond once, F = tensor (u_j - u_i).
   template <int dim>
   class TensorOperator : public BondOperator<dim>
   {

@@ -15,13 +15,14 @@
 namespace perideal
 {
   /**
-   * The areal force density tau at points of the body: the force per area that the matter behind a plane, on
-   * the side its normal n points to, exerts on that before it (QUAD (2.12); Silling 2000),
+   * Evaluates the areal force density tau at points of the body: the force per area that the matter on the
+   * side of a plane that its normal n points to exerts on the matter on the other side (QUAD (2.12); Silling
+   * 2000),
    *
    *     tau(x, n) = int_0^d ds int_{(x' - x).n >= 0, |x' - xh| <= d} f(x', xh) dV',   xh = x - s n,
    *
    * f the force density on xh of its bond with x'. A uniform deformation has tau = P n, the first
-   * Piola-Kirchhoff stress. By either rule:
+   * Piola-Kirchhoff stress. There are two rules:
    *
    * line: that integral, with the displacement interpolated from the nodes by moving least squares; what lies
    * out of the body counts nothing.

@@ -8,7 +8,7 @@
 
 namespace perideal
 {
-  /// What the boundaries behind a mirrored layer do to the body.
+  /// Holds the reactions of the boundaries behind a mirrored layer.
   template <int dim>
   struct MirrorReactions
   {

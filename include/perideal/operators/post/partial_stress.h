@@ -12,8 +12,8 @@
 namespace perideal
 {
   /**
-   * The areal force density of the bonds between nodes, as a tensor P with tau = P n (first Piola-Kirchhoff),
-   * by owned node of the families [Pa]:
+   * Computes the areal force density of the bonds between nodes, as a tensor P with tau = P n (first
+   * Piola-Kirchhoff), by owned node of the families [Pa]:
    *
    *     P_i = 1/(2 V_i) sum_j F_ij (x) xi_ij,
    *

@@ -9,7 +9,7 @@
 namespace perideal
 {
   /**
-   * The matrix of a constrained operator, for direct solvers, tests and small
+   * Assembles the matrix of a constrained operator, for direct solvers, tests and small
    * problems: a row has an entry for every node within two bonds. Held rows
    * carry a diagonal of the size of the others. Collective.
    */

@@ -14,9 +14,9 @@
 namespace perideal
 {
   /**
-   * Auxiliary-space preconditioner B = S + P V P^T: block Jacobi S, scaled by
-   * the largest eigenvalue, removes what is rough; V, one multigrid cycle on a
-   * finite-element matrix of the same body, what is smooth. P takes the value
+   * Applies the auxiliary-space preconditioner B = S + P V P^T: block Jacobi S, scaled by
+   * the largest eigenvalue, reduces rough errors; V, one multigrid cycle on a
+   * finite-element matrix of the same body, smooth ones. P takes the value
    * of a finite-element field in the middle of each node's cell, or of its face.
    *
    * The elements live on the cells of the nodes or on their parents, which are
@@ -75,7 +75,7 @@ namespace perideal
     std::vector<Place>                                                       places;
     /// Of all hanging vertices that this rank knows.
     std::vector<Dependence> dependences;
-    /// Unknowns of this rank that are constrained: their residual is nobody's business.
+    /// Unknowns of this rank that are constrained: their residual is set to zero.
     std::vector<unsigned int> constrained;
     mutable NodalVector       coarse_source, coarse_solution;
   };

@@ -11,7 +11,7 @@
 namespace perideal
 {
   /**
-   * The linear system of a static scene over the displacements of the real
+   * Represents the linear system of a static scene over the displacements of the real
    * nodes: the bond operator with fictitious nodes eliminated and with held
    * components taken out (their rows and columns are those of the identity). Springs may anchor unknowns
    * that nothing else holds.

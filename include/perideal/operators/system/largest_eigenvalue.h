@@ -12,9 +12,9 @@
 
 namespace perideal
 {
-  /// Largest eigenvalue of the preconditioned operator, from Lanczos steps, ten
-  /// of which underestimate it by a few per cent, times 1.1. Steps that an
-  /// indefinite or unsymmetric operator spoils do not count. Collective.
+  /// Estimates the largest eigenvalue of the preconditioned operator by Lanczos steps, which
+  /// underestimate it by a few per cent; the result is 1.1 times theirs. Steps that fail because the
+  /// operator is indefinite or unsymmetric do not count. Collective.
   template <int dim, typename Preconditioner>
   double estimate_largest_eigenvalue(const ConstrainedOperator<dim> &system,
                                      const Preconditioner           &preconditioner,

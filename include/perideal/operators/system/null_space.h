@@ -12,7 +12,7 @@
 namespace perideal
 {
   /**
-   * The rigid-body motions that a scene leaves free, as nodal fields. The
+   * Holds the rigid-body motions that a scene leaves free, as nodal fields. The
    * system is singular along them; since forces along bonds have neither
    * resultant nor moment, they are the null space of its transpose too.
    */
@@ -29,7 +29,7 @@ namespace perideal
 
     bool empty() const { return basis.empty(); }
 
-    /// Takes the motions out of a vector.
+    /// Removes the motions from a vector.
     void project(NodalVector &vector) const;
 
     /// Size of the part of @p vector along the motions, relative to the vector.
@@ -41,7 +41,7 @@ namespace perideal
     /// The work of forces of all ranks along the motions, over their sizes. Collective.
     double share_in(const std::vector<Force> &forces, MPI_Comm communicator) const;
 
-    /// Takes the volume-weighted mean motions out of a displacement field.
+    /// Removes the volume-weighted mean motions from a displacement field.
     void remove_mean(const NodeCloud<dim> &nodes, std::vector<dealii::Tensor<1, dim>> &displacement) const;
 
   private:

@@ -20,23 +20,23 @@ namespace perideal
     GlobalIndex fallback = 0, singular = 0, indefinite = 0, different = 0;
   };
 
-  /// How bonds are weighed.
+  /// Chooses how bonds are weighed.
   template <int dim>
   struct Weighing
   {
-    /// Bonds that are there no more: they get no weights and the families are weighed without them; empty:
+    /// Tells which bonds are cut: they get no weights, and the families are weighed without them; empty:
     /// none.
     BondPredicate<dim> is_cut = {};
-    /// Whether there will be a reweigh().
+    /// Whether reweigh() will be called.
     bool will_change = false;
-    /// Whether families that are equal are weighed once and keep their weights together, where many are; not
+    /// Whether identical families are weighed once and share their weights, where many are identical; not
     /// where bonds are cut or weights will change.
     bool share_equal_families = true;
   };
 
   /**
-   * What a model made of every family and bond, whatever its family shape. Linear operator
-   * and nonlinear force of a scene share it.
+   * Holds the weights that a model gives to every family and bond, whatever its family shape. The linear
+   * operator and the nonlinear force of a scene share them.
    */
   template <int dim>
   class BondWeights

@@ -20,8 +20,8 @@
 namespace perideal
 {
   /**
-   * The energy of the correspondence model (materials/correspondence.h) as rows: what node i needs of its
-   * neighbours for G_i u and z_ij, and what they get back,
+   * Evaluates the energy of the correspondence model (materials/correspondence.h) by rows: what node i needs
+   * of its neighbours for G_i u and z_ij, and the forces on them,
    *
    *     dU/du_k = sum_i [ (V_i P_i - sum_j b_ij z_ij (x) xi_ij) c_ik ] + bonds b_ij z_ij.
    *
@@ -64,7 +64,7 @@ namespace perideal
       increments
     };
 
-    /// The displacement that is looked at from now on. Collective.
+    /// Takes the displacement that the functions below work on. Collective.
     void read(const NodalVector &displacement, const AtFaces at_faces) const;
 
     /// Calls visit(i, G_i u) for the owned nodes.

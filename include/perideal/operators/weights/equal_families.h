@@ -12,8 +12,9 @@
 namespace perideal
 {
   /**
-   * Recognises families that are equal but for the rounding of coordinates: the same bonds, volumes, horizons
-   * and material. On structured meshes those inside the body are all one, and those near its surface a few.
+   * Recognises families that are identical but for the rounding of coordinates: the same bonds, volumes,
+   * horizons and material. On structured meshes those inside the body are all one, and those near its surface
+   * a few.
    *
    * Members of the different families are numbered; these numbers, from 1, are their codes. Code 0 stands for
    * no member.
@@ -39,7 +40,7 @@ namespace perideal
     /// Number of different families so far.
     LocalIndex size() const { return static_cast<LocalIndex>(known.size()); }
 
-    /// Whether many of this rank's families are equal to others, by a sample of them.
+    /// Whether many of this rank's families are identical to others, by a sample of them.
     static bool are_many(const Families<dim> &families);
 
   private:
@@ -89,8 +90,8 @@ namespace perideal
   };
 
   /**
-   * Numbers the different bonds of equal families: a bond is what it is at its two ends. Number 0 is no bond,
-   * as at padding.
+   * Numbers the different bonds of identical families: a bond is determined by its two ends. Number 0 is no
+   * bond, as at padding.
    */
   class BondKinds
   {

@@ -41,8 +41,8 @@ namespace perideal
   };
 
   /**
-   * Weights of every bond: of each end for each sum, and one stiffness. They stand by slot; where equal
-   * families share theirs, by kind of bond.
+   * Holds the weights of every bond: of each end for each sum, and one stiffness. They stand by slot; where
+   * identical families share theirs, by kind of bond.
    */
   template <typename Number, unsigned int n_sums, bool own_force_weights>
   struct SlotWeights
@@ -130,7 +130,7 @@ namespace perideal
   };
 
   /**
-   * The weights of models of one family shape: of each bond, for each sum, the
+   * Holds the weights of models of one family shape: of each bond, for each sum, the
    * weight of either end, and one stiffness.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -178,7 +178,7 @@ namespace perideal
     void make_room(const BondIndex n);
     void
     weigh_families(LinearModel<dim> &model, const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut);
-    /// The same where equal families share their weights.
+    /// The same where identical families share their weights.
     void weigh_different_families(LinearModel<dim> &model, const SolidOf<dim> &solid_of);
     /// What the families' owners made of far ends, and what follows from both ends. Collective.
     void join_ends();
