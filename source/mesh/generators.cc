@@ -12,7 +12,12 @@ namespace perideal
   namespace
   {
     template <int dim>
-    using Generator = void (*)(const MeshParameters &, CoarseMesh<dim> &);
+    struct Generator
+    {
+      void (*generate)(const MeshParameters &, CoarseMesh<dim> &);
+      /// Whether the parameter Corner places its body.
+      bool has_corner;
+    };
 
     /// The list of generators.
     template <int dim>
@@ -20,9 +25,9 @@ namespace perideal
     {
       static const Registry<Generator<dim>> registry(
         "Mesh/Generator",
-        {{"box", &generate_box<dim>},
-         {"plate with hole", &generate_plate_with_hole<dim>},
-         {"plate with hole grid", &generate_plate_with_hole_grid<dim>}});
+        {{"box", {&generate_box<dim>, true}},
+         {"plate with hole", {&generate_plate_with_hole<dim>, false}},
+         {"plate with hole grid", {&generate_plate_with_hole_grid<dim>, false}}});
       return registry;
     }
 
@@ -47,10 +52,15 @@ namespace perideal
     return generators<2>().names();
   }
 
+  bool generator_has_corner(const std::string &name)
+  {
+    return !name.empty() && generators<2>().get(name).has_corner;
+  }
+
   template <int dim>
   void generate_mesh(const MeshParameters &parameters, CoarseMesh<dim> &mesh)
   {
-    generators<dim>().get(parameters.generator)(parameters, mesh);
+    generators<dim>().get(parameters.generator).generate(parameters, mesh);
     mesh.origin = parameters.generator;
   }
 

@@ -107,7 +107,7 @@ namespace perideal
       errors.add(InputError("boundaries are named to refine at, but not how often")
                    .parameter("Mesh/Refine times")
                    .allowed("1 to 12, or an empty Refine at"));
-    if (generator != "box" && !corner.empty())
+    if (!corner.empty() && !generator_has_corner(generator))
       errors.add(InputError("the Corner is one of the generator box").parameter("Mesh/Corner"));
     if (!generator.empty() && !cylinders.empty())
       errors.add(InputError("Cylinders belong to a mesh File; generators know their curved boundaries")

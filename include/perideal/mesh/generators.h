@@ -13,6 +13,10 @@ namespace perideal
   /// Names of the built-in generators.
   std::vector<std::string> generator_names();
 
+  /// Whether the parameter Corner places the body of a generator; false without a name.
+  /// @throws InputError on an unknown name.
+  bool generator_has_corner(const std::string &name);
+
   /// Fills @p mesh by the generator that the parameters name.
   /// @throws InputError on an unknown name, counts or lengths that do not fit it.
   template <int dim>
