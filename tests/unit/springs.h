@@ -3,6 +3,7 @@
 #define perideal_tests_unit_springs_h
 
 #include <perideal/materials/linear_model.h>
+#include <perideal/materials/traits.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -30,14 +31,19 @@ namespace perideal::test
     return energy;
   }
 
-  /// Model and form of everything made of bonds that may move.
-  inline const std::vector<std::pair<std::string, std::string>> bond_models = {
-    {"bond based", "energy"},
-    {"ordinary", "energy"},
-    {"extended ordinary", "paper"},
-    {"extended ordinary", "energy"},
-    {"tensor involved", "one point"},
-    {"tensor involved", "moment corrected"}};
+  /// Model and form of everything made of bonds, as the list of models has it.
+  /// @param may_move only where bonds may move
+  inline std::vector<std::pair<std::string, std::string>> list_bond_models(const bool may_move)
+  {
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const auto &[name, model] : ModelChoice::list())
+      for (const FormTraits &form : model.forms)
+        if (!model.has_law && (form.solvers.dynamics || !may_move))
+          result.emplace_back(name, form.name);
+    return result;
+  }
+
+  inline const auto bond_models = list_bond_models(true);
 } // namespace perideal::test
 
 #endif

@@ -23,7 +23,7 @@ namespace
   /// Bonds with tensors pull sideways, which has a moment, and feel rotations.
   bool is_central(const Variant &variant)
   {
-    return variant.first != "tensor involved";
+    return !ModelChoice(variant.first)->has_bond_tensors;
   }
 
   /// A body with its nonlinear force.

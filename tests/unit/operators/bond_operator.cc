@@ -7,6 +7,7 @@
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"
+#include "springs.h"
 #include "testing.h"
 
 #include <Eigen/Eigenvalues>
@@ -29,15 +30,7 @@ namespace
   std::vector<Variant> variants()
   {
     std::vector<Variant> result;
-    for (const auto &model : {std::pair<std::string, std::string>("bond based", "energy"),
-                              {"ordinary", "energy"},
-                              {"extended ordinary", "consistent"},
-                              {"extended ordinary", "paper"},
-                              {"extended ordinary", "energy"},
-                              {"tensor involved", "consistent"},
-                              {"tensor involved", "one point"},
-                              {"tensor involved", "moment corrected"},
-                              {"tensor involved", "surface cure"}})
+    for (const auto &model : test::list_bond_models(false))
       if (dim == 3)
         for (const double nu : {0.1, 0.33})
           result.push_back({model.first, model.second, PlaneAssumption::solid, nu});
