@@ -15,6 +15,7 @@
 /// The list of models: a new one is one file, with its traits in a function of this name, and one line here.
 #define PERIDEAL_MODELS(MODEL)                                                                               \
   MODEL(bond_based)                                                                                          \
+  MODEL(conical_bond_based)                                                                                  \
   MODEL(ordinary)                                                                                            \
   MODEL(extended_ordinary)                                                                                   \
   MODEL(tensor_involved)                                                                                     \

@@ -156,6 +156,8 @@ namespace
       return 1e-12;
     if (variant.first == "ordinary")
       return dim == 2 ? 0.06 : 0.125;
+    if (variant.first == "conical bond based")
+      return dim == 2 ? 0.039 : 0.026;
     return dim == 2 ? 0.035 : 0.092;
   }
 
