@@ -34,10 +34,11 @@ FLOORS = {
     "operators/system": 10,
     "operators/post": 11,
     "solvers": 11,
-    "problem": 12,
-    "recorders": 13,
-    "drivers": 14,
-    "application": 15,
+    "treatments": 12,
+    "problem": 13,
+    "recorders": 14,
+    "drivers": 15,
+    "application": 16,
 }
 
 README_ROW = re.compile(r"^\|\s*(\d+)\s*\|\s*`([\w/]+)`\s*\|", re.MULTILINE)

@@ -50,13 +50,13 @@ namespace perideal
       CheckpointNodes      result{cell_keys(*problem.body.mesh, *problem.body.nodes),
                              {},
                              families.n_owned(),
-                             problem.loading.unknowns().n_global,
+                             problem.loading.supports->unknowns().n_global,
                              families.communicator};
-      if (problem.loading.surface_nodes)
+      if (problem.loading.supports->surface_nodes())
         {
           // Cells have at most six; no cell uses the highest bits.
           std::vector<std::uint64_t> n_of_cell(problem.body.nodes->size(), 0);
-          for (const LocalIndex cell : problem.loading.surface_nodes->cell_nodes())
+          for (const LocalIndex cell : problem.loading.supports->surface_nodes()->cell_nodes())
             result.key.push_back(result.key[cell] | (++n_of_cell[cell] << 61));
         }
       // Halves of keys are exact as doubles.

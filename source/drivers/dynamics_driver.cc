@@ -147,7 +147,7 @@ namespace perideal
       {
         using Start = typename ExplicitDynamics<dim>::Start;
         dynamics    = std::make_unique<ExplicitDynamics<dim>>(*problem.force,
-                                                           problem.loading.held,
+                                                           problem.loading.supports->held(),
                                                            problem.loading.loads,
                                                            mass,
                                                            solver.damping,
@@ -209,11 +209,7 @@ namespace perideal
         return true;
       }
 
-      void apply_forces()
-      {
-        problem.loading.external_force(
-          problem.discretisation, dynamics->time(), problem.state.external_force);
-      }
+      void apply_forces() { problem.loading.external_force(dynamics->time(), problem.state.external_force); }
 
       /// Hands the present step to the recorders: rows and frames at their times.
       void observe(const std::uint64_t n)
@@ -261,7 +257,7 @@ namespace perideal
         motion_check.look(*dynamics, step.energy, this->largest_energy, stable_step);
         store();
         step.reactions =
-          problem.loading.held.sum_by_condition(dynamics->reaction(), problem.run.communicator);
+          problem.loading.supports->held().sum_by_condition(dynamics->reaction(), problem.run.communicator);
         step.momentum = dynamics->momentum();
       }
 

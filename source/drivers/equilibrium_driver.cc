@@ -85,8 +85,10 @@ namespace perideal
         const Timings::Scope scope(problem.run.timings, "setup");
         const Timings::Scope part(problem.run.timings, "setup: preconditioner");
         tangent        = problem.discretisation.create_tangent();
-        tangent_system = std::make_unique<ConstrainedOperator<dim>>(
-          tangent, problem.loading.images, problem.loading.unknowns(), problem.loading.held.mask());
+        tangent_system = std::make_unique<ConstrainedOperator<dim>>(tangent,
+                                                                    problem.loading.supports->images(),
+                                                                    problem.loading.supports->unknowns(),
+                                                                    problem.loading.supports->held().mask());
         // A load step takes about four solves.
         preconditioning =
           std::make_unique<Preconditioning<dim>>(problem, 4 * solver.load_steps, solver_report);
@@ -131,23 +133,23 @@ namespace perideal
         if (!solver.is_quasi_static())
           {
             path = std::make_unique<DynamicRelaxation<dim>>(
-              *problem.force, *problem.system, loading.held, loading.loads, controls);
+              *problem.force, *problem.system, loading.supports->held(), loading.loads, controls);
             return;
           }
         typename NewtonSolver<dim>::FindFloating find_floating;
         if (controls.bonds_break || !problem.failure.precracks.empty())
           find_floating = [this]() { return floating_nodes(); };
-        path =
-          std::make_unique<NewtonSolver<dim>>(*problem.force,
-                                              *tangent,
-                                              *tangent_system,
-                                              *tangent_solver,
-                                              loading.held,
-                                              loading.loads,
-                                              problem.free_motions,
-                                              controls,
-                                              loading.holds_nodes() ? nullptr : loading.face_values.get(),
-                                              find_floating);
+        path = std::make_unique<NewtonSolver<dim>>(
+          *problem.force,
+          *tangent,
+          *tangent_system,
+          *tangent_solver,
+          loading.supports->held(),
+          loading.loads,
+          problem.free_motions,
+          controls,
+          loading.supports->hold_nodes() ? nullptr : loading.supports->face_values().get(),
+          find_floating);
       }
 
       std::vector<bool> floating_nodes() const
@@ -160,7 +162,7 @@ namespace perideal
           *problem.discretisation.families,
           force.bond_list(),
           [&](const BondIndex slot) { return is_lost[slot]; },
-          problem.loading.held.mask());
+          problem.loading.supports->held().mask());
       }
 
       bool advance() override
@@ -259,19 +261,12 @@ namespace perideal
       /// Energies and supports of the equilibrium.
       void measure(Step<dim> &step)
       {
-        const Loading<dim> &loading = problem.loading;
-        step.energy                 = path->energy();
-        step.energy_error           = this->energy_error(step.energy, step.energy.strain);
-        step.n_broken               = path->n_broken();
-        step.newly_broken           = step.search.broken;
-        step.n_floating             = path->n_floating();
-        step.reactions = loading.held.sum_by_condition(path->reaction(), problem.run.communicator);
-        if (!loading.face_values || loading.holds_nodes())
-          return;
-        const auto at_faces =
-          loading.face_values->sum_by_condition(path->face_reaction(), problem.run.communicator);
-        for (std::size_t k = 0; k < step.reactions.size(); ++k)
-          step.reactions[k] += at_faces[k];
+        step.energy       = path->energy();
+        step.energy_error = this->energy_error(step.energy, step.energy.strain);
+        step.n_broken     = path->n_broken();
+        step.newly_broken = step.search.broken;
+        step.n_floating   = path->n_floating();
+        step.reactions    = problem.loading.supports->reactions(path->reaction(), path->face_reaction());
       }
 
       void save() const

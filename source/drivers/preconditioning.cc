@@ -44,7 +44,7 @@ namespace perideal
                                 problem.free_motions,
                                 *problem.body.nodes,
                                 fem.get(),
-                                problem.loading.surface_nodes.get());
+                                problem.loading.supports->surface_nodes());
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Preconditioning)

@@ -122,8 +122,8 @@ namespace perideal
       void measure(Step<dim> &step) const
       {
         const State<dim> &state   = problem.state;
-        auto              balance = problem.loading.balance(
-          problem.discretisation, *problem.system, state.unknowns, state.external_force, step.time);
+        auto              balance = problem.loading.supports->balance(
+          {*problem.system, state.unknowns, state.external_force, step.time});
         step.reactions       = std::move(balance.reactions);
         step.energy.strain   = balance.strain_energy;
         step.energy.external = balance.external_work;

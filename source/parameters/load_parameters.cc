@@ -114,33 +114,17 @@ namespace perideal
       "What the next two are where they are automatic, for bonds between nodes: layer: layer and layer; "
       "published: surface nodes and published transfer, as in peridynamics with boundary conditions; "
       "balanced: surface nodes and transfer; taylor ghosts: these for both; automatic: what suits the model");
-    prm.add_parameter(
-      "Displacement treatment",
-      displacement_treatment,
-      "How prescribed displacements reach the nodes: face value: in the place of interpolated values at "
-      "the boundary's faces (consistent form only); layer: nodes of the cells at the boundary "
-      "take the boundary's value; reference: they take the reference solution's value at the "
-      "node (for studies); mirror: a fictitious layer of mirrored nodes behind a plane boundary; "
-      "surface nodes: a node of its own in the middle of each face, with the volume of its cell once more; "
-      "taylor ghosts: the far ends of bonds that are missing behind the surface move by Taylor polynomials "
-      "that "
-      "meet the boundary's values (with the same treatment of tractions); "
-      "automatic: face value for the consistent form, taylor ghosts with such tractions, else layer");
-    prm.add_parameter(
-      "Traction treatment",
-      traction_treatment,
-      "How tractions and pressures reach the nodes: layer: as forces on the nodes of the cells at the "
-      "boundary; taylor ghosts: by bonds that are missing behind the surface, also where it is free, whose "
-      "far "
-      "ends move by Taylor polynomials that meet the tractions (statics, not the consistent form, with the "
-      "same treatment of displacements); transfer: spread over the nodes within a horizon, with force and "
-      "moment "
-      "of each face; published transfer: as published, 1.386 times too large; line to point: the closed form "
-      "of "
-      "bond-based peridynamics in 3-D for tractions along the normal; published line to point: as published, "
-      "with "
-      "a third of the force lost; face value: at the faces of the consistent form; automatic: that for the "
-      "consistent form, else layer");
+#define PERIDEAL_TREATMENT_HELP(name, text, meaning) text ": " meaning "; "
+    prm.add_parameter("Displacement treatment",
+                      displacement_treatment,
+                      "How prescribed displacements reach the nodes: " PERIDEAL_DISPLACEMENT_TREATMENTS(
+                        PERIDEAL_TREATMENT_HELP) "automatic: face value for the consistent form, taylor "
+                                                 "ghosts with such tractions, else layer");
+    prm.add_parameter("Traction treatment",
+                      traction_treatment,
+                      "How tractions and pressures reach the nodes: " PERIDEAL_TRACTION_TREATMENTS(
+                        PERIDEAL_TREATMENT_HELP) "automatic: that for the consistent form, else layer");
+#undef PERIDEAL_TREATMENT_HELP
     prm.add_parameter("Transfer chi",
                       transfer_chi,
                       "Of the published transfer: its factor is chi/(chi-1), not 0 or 1 [-]",

@@ -67,7 +67,7 @@ namespace perideal
     void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result)
     {
       const ModelParameters &model = problem.parameters.model;
-      if ((model.is_consistent() && model.is_linear_only()) || problem.loading.extension)
+      if ((model.is_consistent() && model.is_linear_only()) || problem.loading.tractions->complete_families())
         return;
       const double      whole   = lattice_family<dim>(problem.parameters.nodes.horizon_factor).size;
       const double      missing = 1. - problem.discretisation.families->statistics().mean / whole;
@@ -255,7 +255,7 @@ namespace perideal
     warn_of_motion(problem, result);
     if (consistent && problem.parameters.loads.holds_layer())
       result.push_back("held nodes take from the consistent form the accuracy that face values have");
-    if (problem.loading.extension)
+    if (problem.loading.tractions->complete_families())
       {
         const ElasticSolid<dim> &solid = problem.body.solids.begin()->second;
         const ElasticSolid<dim>  own =

@@ -93,7 +93,7 @@ namespace perideal
     if (!can_break(parameters))
       result["bond state (nothing can break)"] = bonds;
     const GlobalIndex different = discretisation.counts.different;
-    const GlobalIndex families  = problem.loading.images->nodes().n_global;
+    const GlobalIndex families  = problem.loading.supports->images()->nodes().n_global;
     if (different > 0 && different < families)
       result["weights of families equal to others"] = families - different;
     if (dealii::Utilities::MPI::n_mpi_processes(problem.run.communicator) == 1)
@@ -136,17 +136,7 @@ namespace perideal
     if (discretisation.family_stiffness)
       out << "stiffness   " << describe_stiffness<dim>(*discretisation.family_stiffness)
           << " by whole families\n";
-    out << "boundaries  displacement by " << name_of(parameters.loads.displacement_treatment);
-    if (parameters.loads.layers > 1)
-      out << ", " << parameters.loads.layers << " layers of cells";
-    if (loading.images->n_fictitious() > 0)
-      out << ", " << grouped(loading.images->nodes().n_global - n_nodes) << " fictitious nodes";
-    if (loading.surface_nodes)
-      out << " (" << grouped(loading.unknowns().n_global - n_nodes) << ')';
-    if (parameters.loads.has_transfer())
-      out << ", tractions by " << name_of(parameters.loads.traction_treatment);
-    if (loading.extension)
-      out << ", tractions as well";
+    out << "boundaries  displacement by " << loading.supports->describe() << loading.tractions->describe();
     if (!problem.free_motions.empty())
       out << ", free rigid-body motions removed";
     out << '\n';

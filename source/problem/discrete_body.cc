@@ -52,7 +52,6 @@ namespace perideal
   template <int dim>
   void DiscreteBody<dim>::weigh(const Body<dim>                        &body,
                                 const std::shared_ptr<FaceValues<dim>> &face_values,
-                                const std::vector<SurfaceFace<dim>>    &surface,
                                 const BondPredicate<dim>               &is_cut)
   {
     const SceneParameters &parameters = body.parameters;
@@ -61,9 +60,9 @@ namespace perideal
     else if (parameters.model.is_consistent())
       weigh_faces(body, face_values);
     else if (parameters.quadrature.has_gauss_points())
-      weigh_gauss_points(body, surface);
+      weigh_gauss_points(body);
     else
-      weigh_nodes(body, surface, is_cut);
+      weigh_nodes(body, is_cut);
     counts  = bonds->counts;
     reports = bonds->reports;
   }

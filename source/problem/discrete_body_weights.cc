@@ -20,16 +20,16 @@ namespace perideal
     /// Factors that stiffen bonds near the surface, by owned node; empty where the scene has none.
     /// @param points of the cells; null: one point each
     template <int dim>
-    std::vector<double> compensation_factors(const Body<dim>                     &body,
-                                             const Families<dim>                 &families,
-                                             const std::vector<SurfaceFace<dim>> &surface,
-                                             const GaussPoints<dim>              *points = nullptr)
+    std::vector<double> compensation_factors(const Body<dim>        &body,
+                                             const Families<dim>    &families,
+                                             const GaussPoints<dim> *points = nullptr)
     {
       const SceneParameters &parameters = body.parameters;
       const auto            &nodes      = *body.nodes;
       std::vector<double>    result;
       if (parameters.model.boundary_compensation == BoundaryCompensation::closed_form)
-        for (const auto &planes : find_surface_planes<dim>(nodes, surface))
+        for (const auto &planes :
+             find_surface_planes<dim>(nodes, gather_faces(body.faces, nodes.communicator)))
           {
             std::vector<double> depths;
             for (const SurfacePlane<dim> &plane : planes)
@@ -52,14 +52,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void DiscreteBody<dim>::weigh_nodes(const Body<dim>                     &body,
-                                      const std::vector<SurfaceFace<dim>> &surface,
-                                      const BondPredicate<dim>            &is_cut)
+  void DiscreteBody<dim>::weigh_nodes(const Body<dim> &body, const BondPredicate<dim> &is_cut)
   {
     const SceneParameters &parameters = body.parameters;
     const auto             solid_of   = solids_of_model(body);
-    model                             = create_model<dim>(
-      parameters.model, body.mesh->thickness, compensation_factors(body, *families, surface));
+    model = create_model<dim>(parameters.model, body.mesh->thickness, compensation_factors(body, *families));
     weights = weigh_bonds<dim>(families,
                                *model,
                                solid_of,
@@ -72,8 +69,7 @@ namespace perideal
   }
 
   template <int dim>
-  void DiscreteBody<dim>::weigh_gauss_points(const Body<dim>                     &body,
-                                             const std::vector<SurfaceFace<dim>> &surface)
+  void DiscreteBody<dim>::weigh_gauss_points(const Body<dim> &body)
   {
     const SceneParameters &parameters = body.parameters;
     const auto             solid_of   = solids_of_model(body);
@@ -91,7 +87,7 @@ namespace perideal
     if (parameters.model.compensates())
       {
         NodalVector factor(families->make_partitioner(1));
-        const auto  own = compensation_factors(body, *families, surface, points.get());
+        const auto  own = compensation_factors(body, *families, points.get());
         std::copy(own.begin(), own.end(), factor.begin());
         factor.update_ghost_values();
         for (LocalIndex i = 0; i < families->n_local(); ++i)

@@ -81,17 +81,11 @@ namespace perideal
         check_bodies_held(loading, parts);
         return {};
       }
-    // Which motions the held components allow: those of nodes, or of faces where images or face values hold.
-    const Body<dim>          &body         = loading.body;
-    const NodeCloud<dim>     &unknowns     = loading.unknowns();
-    const MPI_Comm            communicator = body.nodes->communicator;
-    RigidBodyMotions<dim>     motions      = motions_of(*body.mesh, communicator);
-    const bool                at_nodes     = loading.holds_nodes();
-    const DirichletNodes<dim> held =
-      at_nodes ? loading.held : DirichletNodes<dim>(body.faces, loading.loads, body.nodes->size());
-    for (const auto &entry : held.entries())
-      motions.hold(at_nodes ? unknowns.position[entry.node] : entry.point, entry.component);
-
+    const Body<dim>      &body         = loading.body;
+    const NodeCloud<dim> &unknowns     = loading.supports->unknowns();
+    const MPI_Comm        communicator = body.nodes->communicator;
+    RigidBodyMotions<dim> motions      = motions_of(*body.mesh, communicator);
+    loading.supports->hold(motions);
     const auto free = motions.free_motions(communicator);
     if (free.empty())
       return {};

@@ -49,21 +49,6 @@ namespace perideal
       return result;
     }
 
-    /// Of nodal forces.
-    template <int dim>
-    Resultant<dim> add_up(const Nodes<dim> &nodes, const NodalVector &force)
-    {
-      Resultant<dim> result;
-      for (LocalIndex i = 0; i < nodes.size(); ++i)
-        {
-          dealii::Tensor<1, dim> acting;
-          for (int d = 0; d < dim; ++d)
-            acting[d] = force.local_element(dim * i + d);
-          result.add(nodes.position[i], acting);
-        }
-      return result;
-    }
-
     /// What the nodes get over what was applied: of the force, or of the moment where the force vanishes.
     template <int dim>
     double ratio_of(const Resultant<dim> &nodal, const Resultant<dim> &applied, const double gross)
@@ -76,36 +61,15 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  Resultant<dim> Loading<dim>::met_by_extension(const std::size_t  condition,
-                                                const NodalVector &displacement,
-                                                const double       time) const
-  {
-    Resultant<dim> result;
-    visit_faces(loads.conditions[condition],
-                extension->face_tractions(displacement, loads, time),
-                [&](const auto &seen) {
-                  dealii::Tensor<1, dim> force = seen.point.area * seen.traction;
-                  for (const BoundaryCondition<dim> &other : loads.conditions)
-                    for (unsigned int d = 0; d < dim; ++d)
-                      if (other.acts_on(seen.boundary) && other.holds(d))
-                        force[d] = 0.;
-                  result.add(seen.point.position, force);
-                });
-    return result;
-  }
-
-  template <int dim>
-  Json Loading<dim>::resultants(const DiscreteBody<dim> &discretisation,
-                                const NodalVector       &displacement,
-                                const NodalVector       &external,
-                                const double             time) const
+  Json Loading<dim>::resultants(const NodalVector &displacement,
+                                const NodalVector &external,
+                                const double       time) const
   {
     const Nodes<dim> &nodes        = *body.nodes;
     const MPI_Comm    communicator = nodes.communicator;
     Json              result       = {{"conditions", Json::object()}};
-    NodalVector       force(external);
     Resultant<dim>    total, by_faces;
-    for (std::size_t k = 0; k < loads.conditions.size(); ++k)
+    for (unsigned int k = 0; k < loads.conditions.size(); ++k)
       if (const auto &condition = loads.conditions[k]; condition.prescribes_traction())
         {
           double     gross   = 0;
@@ -117,18 +81,7 @@ namespace perideal
           entry["applied"] = describe(applied);
           if (gross == 0)
             continue;
-          Loads<dim> alone = loads;
-          alone.body_force = {};
-          for (std::size_t other = 0; other < alone.conditions.size(); ++other)
-            if (other != k)
-              {
-                alone.conditions[other].traction = {};
-                alone.conditions[other].pressure = {};
-              }
-          if (!extension)
-            set_tractions(discretisation, alone, time, force);
-          const auto nodal =
-            sum_of(extension ? met_by_extension(k, displacement, time) : add_up(nodes, force), communicator);
+          const auto nodal     = sum_of(tractions->resultant(k, time, displacement), communicator);
           entry["transferred"] = describe(nodal);
           by_faces.force += nodal.force;
           by_faces.moment += nodal.moment;
@@ -146,10 +99,8 @@ namespace perideal
         sum->moment += others.moment;
       }
     result["total"]["applied"] = describe(total);
-    if (extension)
-      result["total"]["transferred"] = describe(by_faces);
-    else
-      result["total"]["transferred"] = describe(sum_of(add_up(nodes, external), communicator));
+    result["total"]["transferred"] =
+      describe(tractions->are_nodal_forces() ? sum_of(tractions->add_up(external), communicator) : by_faces);
     return result;
   }
 

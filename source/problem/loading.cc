@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
-#include <perideal/base/timing.h>
-#include <perideal/boundary/balanced_transfer.h>
-#include <perideal/boundary/surface_planes.h>
-#include <perideal/operators/linear/nodal_springs.h>
+#include <perideal/boundary/body_forces.h>
 #include <perideal/problem/loading.h>
+
+#include <deal.II/base/mpi.h>
 
 namespace perideal
 {
@@ -22,46 +20,15 @@ namespace perideal
   }
 
   template <int dim>
-  const NodeCloud<dim> &Loading<dim>::unknowns() const
+  TreatedBody<dim> Loading<dim>::treated_body(Timings &timings) const
   {
-    return surface_nodes ? surface_nodes->nodes() : static_cast<const NodeCloud<dim> &>(*body.nodes);
+    return {*body.mesh, *body.nodes, body.faces, loads, body.parameters.loads, timings};
   }
 
   template <int dim>
-  bool Loading<dim>::holds_nodes() const
+  void Loading<dim>::choose_nodes(Timings &timings)
   {
-    const LoadParameters &given = body.parameters.loads;
-    return given.holds_layer() || given.has_surface_nodes();
-  }
-
-  template <int dim>
-  void Loading<dim>::choose_nodes()
-  {
-    const LoadParameters &given = body.parameters.loads;
-    const Nodes<dim>     &nodes = *body.nodes;
-    if (given.act_in_depth() ||
-        body.parameters.model.boundary_compensation == BoundaryCompensation::closed_form)
-      surface = gather_faces(body.faces, nodes.communicator);
-    if (given.has_mirror())
-      {
-        images = std::make_shared<MirrorLayer<dim>>(*body.mesh, nodes, body.faces, loads);
-        held   = DirichletNodes<dim>({}, loads, nodes.size());
-      }
-    else if (given.has_surface_nodes())
-      {
-        surface_nodes = std::make_unique<SurfaceNodes<dim>>(nodes, body.faces, loads);
-        images        = std::make_shared<MirrorLayer<dim>>(unknowns());
-        held          = DirichletNodes<dim>(surface_nodes->faces(), loads, unknowns().size());
-      }
-    else
-      {
-        images = std::make_shared<MirrorLayer<dim>>(nodes);
-        if (given.layers > 1)
-          held = DirichletNodes<dim>(*body.mesh, nodes, body.faces, loads, given.layers);
-        else
-          held = DirichletNodes<dim>(
-            holds_nodes() ? body.faces : std::vector<BoundaryFace<dim>>(), loads, nodes.size());
-      }
+    supports = create_supports(treated_body(timings));
   }
 
   template <int dim>
@@ -72,84 +39,59 @@ namespace perideal
   }
 
   template <int dim>
-  void Loading<dim>::take_face_values(const FaceGradient<dim> &gradient)
-  {
-    face_values = holds_nodes() ? std::make_shared<FaceValues<dim>>() :
-                                  std::make_shared<FaceValues<dim>>(gradient, loads);
-  }
-
-  template <int dim>
   void Loading<dim>::surround(DiscreteBody<dim> &discretisation, Timings &timings)
   {
-    const LoadParameters &given = body.parameters.loads;
-    if (given.has_taylor_extension())
-      {
-        // Between materials a uniform strain needs forces that no missing bond stands for.
-        if (body.mesh->material_ids.size() > 1)
-          throw InputError("what ghosts do is known in bodies of one material")
-            .parameter("Boundary conditions/Traction treatment")
-            .given("taylor ghosts")
-            .allowed("automatic | layer for several cell groups");
-        const Timings::Scope part(timings, "setup: ghosts");
-        extension = std::make_shared<TaylorExtension<dim>>(
-          discretisation.bonds,
-          discretisation.families,
-          *body.nodes,
-          body.faces,
-          surface,
-          loads,
-          solids_of_model(body)(*body.mesh->material_ids.begin()).stiffness());
-        discretisation.bonds            = extension;
-        discretisation.family_stiffness = extension->stiffness();
-      }
-    if (!given.has_transfer())
-      return;
-    const Timings::Scope   part(timings, "setup: transfer functions");
-    TransferFunctions<dim> functions(*body.nodes, surface);
-    if (!given.has_published_transfer())
-      {
-        transfer = std::make_shared<BalancedTransfer<dim>>(std::move(functions));
-        return;
-      }
-    published_transfer = std::make_shared<PublishedTransfer<dim>>(
-      std::move(functions), loads, given.transfer_chi, given.transfer_lambda);
-    transfer = published_transfer;
-    if (!published_transfer->springs().empty())
-      discretisation.bonds =
-        std::make_shared<NodalSprings<dim>>(discretisation.bonds, published_transfer->springs());
+    tractions = create_tractions(
+      treated_body(timings),
+      TreatedBonds<dim>{discretisation.families, discretisation.gradient, solids_of_model(body)});
+    discretisation.bonds = tractions->around(discretisation.bonds);
+    if (const auto stiffness = tractions->stiffness())
+      discretisation.family_stiffness = stiffness;
   }
 
   template <int dim>
   void Loading<dim>::check_finite(const double time) const
   {
     perideal::check_finite(body.faces, loads, time, body.nodes->communicator);
-    held.check_finite(loads, time, body.nodes->communicator);
+    supports->held().check_finite(loads, time, body.nodes->communicator);
   }
 
   template <int dim>
-  void Loading<dim>::move_supports(const double time)
+  void Loading<dim>::apply(const double time, NodalVector &force, NodalVector &displacement) const
   {
-    images->set_time(loads, time);
-    // Along nonlinear equilibria, values at faces move with the solver.
-    if (face_values && !body.parameters.solver.is_nonlinear_static())
-      face_values->set_time(loads, time);
+    if (!body.parameters.solver.is_nonlinear_static())
+      supports->set_face_values(time);
+    external_force(time, force);
+    supports->set_displacements(time, displacement);
   }
 
   template <int dim>
-  void Loading<dim>::prescribe(const double                               time,
-                               const std::vector<dealii::Tensor<1, dim>> *reference,
-                               NodalVector                               &displacement) const
+  void Loading<dim>::external_force(const double time, NodalVector &force) const
   {
-    if (reference == nullptr)
-      {
-        held.set_boundary_values(loads, time, displacement);
-        return;
-      }
-    // The reference belongs to the final loads; linear scenes scale.
-    auto values = *reference;
-    for (auto &value : values)
-      value *= time;
-    held.set_nodal_values(values, displacement);
+    // No external force acts on nodes that are not those of cells.
+    force = 0.;
+    set_body_forces(*body.nodes, loads, time, force);
+    tractions->add_tractions(loads, time, force);
+    tractions->add_given(time, force);
+    point_forces.add(loads, time, force);
+  }
+
+  template <int dim>
+  std::vector<typename NullSpace<dim>::Force> Loading<dim>::forces_on_body() const
+  {
+    const Nodes<dim>                           &nodes = *body.nodes;
+    std::vector<typename NullSpace<dim>::Force> result;
+    visit_loaded_faces(
+      loads, body.faces, [&](const BoundaryCondition<dim> &condition, const BoundaryFace<dim> &face) {
+        result.emplace_back(face.centre,
+                            face.area * Loads<dim>::traction(condition, face.centre, face.normal, 1.));
+      });
+    for (LocalIndex i = 0; i < nodes.size(); ++i)
+      result.emplace_back(nodes.position[i], nodes.volume[i] * loads.body_force_at(nodes.position[i], 1.));
+    if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0)
+      for (const auto &load : loads.point_loads)
+        result.emplace_back(load.position, load.force_at(1.));
+    return result;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Loading)

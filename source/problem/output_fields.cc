@@ -92,7 +92,7 @@ namespace perideal
           return result;
         }
       for (const auto &strain : compute_nodal_strain(*problem.discretisation.gradient,
-                                                     *problem.loading.face_values,
+                                                     *problem.loading.supports->face_values(),
                                                      *problem.body.nodes,
                                                      problem.state.displacement))
         result.push_back(

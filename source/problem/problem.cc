@@ -27,8 +27,8 @@ namespace perideal
     }
     const Timings::Scope scope(run.timings, "neighbours");
     body.make_nodes();
-    loading.choose_nodes();
-    discretisation.find_families(parameters, loading.images->nodes());
+    loading.choose_nodes(run.timings);
+    discretisation.find_families(parameters, loading.supports->images()->nodes());
     loading.place_point_forces();
   }
 
@@ -52,27 +52,29 @@ namespace perideal
       {
         const Timings::Scope part(run.timings, "setup: face gradient");
         discretisation.make_gradient(body);
-        loading.take_face_values(*discretisation.gradient);
+        loading.supports->make_face_values(*discretisation.gradient);
       }
     {
       const Timings::Scope part(run.timings, "setup: weights");
-      discretisation.weigh(body, loading.face_values, loading.surface, is_cut);
+      discretisation.weigh(body, loading.supports->face_values(), is_cut);
     }
     loading.surround(discretisation, run.timings);
     discretisation.measure_families(body);
-    system = std::make_unique<ConstrainedOperator<dim>>(
-      discretisation.bonds, loading.images, loading.unknowns(), loading.held.mask());
+    const Supports<dim> &supports = *loading.supports;
+    system                        = std::make_unique<ConstrainedOperator<dim>>(
+      discretisation.bonds, supports.images(), supports.unknowns(), supports.held().mask());
   }
 
   template <int dim>
   void Problem<dim>::solve_reference()
   {
     const ComparisonParameters &comparison = parameters.comparison;
-    if (!comparison.reference && parameters.loads.displacement_treatment != DisplacementTreatment::reference)
+    if (!comparison.reference && !loading.supports->needs_reference())
       return;
     run.screen << "reference   Q2 finite elements, " << comparison.reference_refinements << " refinement(s)"
                << (comparison.reference_mesh.empty() ? "" : " of " + comparison.reference_mesh) << std::endl;
     state.comparisons["reference"] = reference_at_nodes(*this);
+    loading.supports->set_reference(state.comparisons["reference"]);
   }
 
   template <int dim>
@@ -100,10 +102,9 @@ namespace perideal
     system->initialize(residual);
     system->residual(residual, state.external_force, state.unknowns);
     // What bonds, ghosts and the published transfer make of tractions balances roughly; the tractions must.
-    const double share =
-      parameters.loads.act_in_depth() && parameters.loads.traction_treatment != TractionTreatment::transfer ?
-        free_motions.share_in(loading.forces_on_body(), run.communicator) :
-        free_motions.share_in(residual);
+    const double share = loading.tractions->keep_balance() ?
+                           free_motions.share_in(residual) :
+                           free_motions.share_in(loading.forces_on_body(), run.communicator);
     if (share > 1e-6)
       throw InputError("the loads push the body along a rigid-body motion that nothing holds")
         .parameter("Boundary conditions/Rigid body motions")
@@ -114,10 +115,7 @@ namespace perideal
   template <int dim>
   void Problem<dim>::apply_loads(const double time)
   {
-    loading.move_supports(time);
-    loading.external_force(discretisation, time, state.external_force);
-    const bool at_reference = parameters.loads.displacement_treatment == DisplacementTreatment::reference;
-    loading.prescribe(time, at_reference ? &state.comparisons.at("reference") : nullptr, state.unknowns);
+    loading.apply(time, state.external_force, state.unknowns);
   }
 
   template <int dim>

@@ -140,7 +140,7 @@ namespace perideal
                                  partial_stress<dim>(*discretisation.families, *discretisation.bonds);
         Stresses result;
         for (const auto &strain : compute_nodal_strain(*discretisation.gradient,
-                                                       *problem.loading.face_values,
+                                                       *problem.loading.supports->face_values(),
                                                        *body.nodes,
                                                        problem.state.displacement))
           {

@@ -102,9 +102,7 @@ namespace perideal
         std::unique_ptr<const CellGraph<dim>> own_graph;
         if (!gradient)
           own_graph = std::make_unique<const CellGraph<dim>>(*body.mesh, *body.nodes);
-        const Held held = problem.parameters.loads.displacement_treatment == DisplacementTreatment::layer ?
-                            Held::at_nodes :
-                            Held::at_faces;
+        const Held held = problem.loading.supports->reach_surface() ? Held::at_faces : Held::at_nodes;
         const SurfaceRecovery<dim> recovery(
           *body.mesh, gradient ? gradient->graph() : *own_graph, body.solids, problem.loading.loads, held);
         Json &result = record.summary["boundary_stress"];

@@ -156,9 +156,10 @@ namespace perideal
       {
         const char       *components[] = {"u_x", "u_y", "u_z"};
         const Nodes<dim> &nodes        = *problem.body.nodes;
-        const auto        errors       = field_errors(
-          nodes, field, reference, [&](const LocalIndex i) { return problem.loading.held.in_collar(i); });
-        Json result = {{"l2", errors.l2}, {"max", errors.max}};
+        const auto        errors       = field_errors(nodes, field, reference, [&](const LocalIndex i) {
+          return problem.loading.supports->held().in_collar(i);
+        });
+        Json              result       = {{"l2", errors.l2}, {"max", errors.max}};
         for (const auto &profile : profiles)
           {
             const auto along = profile_errors(nodes, profile.second->local_nodes(), field, reference);

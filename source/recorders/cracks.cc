@@ -72,7 +72,7 @@ namespace perideal
       Json save(const Json &, Checkpoint &checkpoint) const override
       {
         checkpoint.fields["crack"] = tracker.state();
-        checkpoint.fields["crack"].resize(problem.loading.unknowns().size());
+        checkpoint.fields["crack"].resize(problem.loading.supports->unknowns().size());
         return Json::object();
       }
 

@@ -82,7 +82,7 @@ namespace perideal
               if (const auto &prescribed = conditions[k].displacement[d]; prescribed.is_present())
                 total.add(k, d, face.area, prescribed.value(face.centre, time));
           });
-        for (const auto &entry : loading.held.entries())
+        for (const auto &entry : loading.supports->held().entries())
           if (conditions[entry.condition].velocity[entry.component].is_present())
             total.add(entry.condition,
                       entry.component,

@@ -25,8 +25,8 @@ namespace perideal
       {
         const State<dim> &state = problem.state;
         if (state.external_force.l2_norm() > 0)
-          record.summary["loads"] = problem.loading.resultants(
-            problem.discretisation, state.unknowns, state.external_force, step.time);
+          record.summary["loads"] =
+            problem.loading.resultants(state.unknowns, state.external_force, step.time);
       }
 
       std::string describe(const Json &summary, const bool) const override

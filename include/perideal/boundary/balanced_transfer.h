@@ -19,13 +19,13 @@ namespace perideal
    * the pseudo-inverse.
    */
   template <int dim>
-  class BalancedTransfer : public TractionTransfer<dim>
+  class BalancedTransfer
   {
   public:
     /// Collective.
     explicit BalancedTransfer(TransferFunctions<dim> functions);
 
-    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const override;
+    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const;
 
   private:
     /// Of the nodes of a face: their centroid, from that of the face [m], and the inverse of I [1/m^5].

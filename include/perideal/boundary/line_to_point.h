@@ -2,10 +2,6 @@
 #ifndef perideal_boundary_line_to_point_h
 #define perideal_boundary_line_to_point_h
 
-#include <perideal/boundary/surface_planes.h>
-
-#include <vector>
-
 namespace perideal
 {
   /**
@@ -20,7 +16,7 @@ namespace perideal
    *
    *     f_L.n = c (eps (d - r) + (1 + nu) eps D^2 (1/d - 1/r)),   r = sqrt(D^2 + s^2);
    *
-   * the printed one, (4.25)-(4.45), is of finite stretch, and takes xi_2 = 2 h where it is s + h (4.20), so
+   * the published one, (4.25)-(4.45), is of finite stretch, and takes xi_2 = 2 h where it is s + h (4.20), so
    * that the depth is lost: it recovers a third less.
    */
   struct LineToPoint
@@ -34,23 +30,8 @@ namespace perideal
       double along_normal = 0, across = 0;
     };
     Density closed_form(const double sigma, const double s, const double distance) const;
-    Density as_printed(const double sigma, const double s, const double distance) const;
+    Density as_published(const double sigma, const double s, const double distance) const;
   };
-
-  /**
-   * Adds to nodes within their horizons of loaded faces what line-to-point force densities make of the
-   * tractions [N]: V_i sum over faces of int f_L dS (4.48), the closed form with 3 x 3 Gauss points a face,
-   * the printed one with one as on a grid of nodes.
-   * @param law_of a node
-   * @throws InputError on all ranks where a traction is not along the normal (4.47).
-   */
-  void add_line_to_point_forces(const NodeCloud<3>                                 &nodes,
-                                const std::vector<SurfaceFace<3>>                  &faces,
-                                const Loads<3>                                     &loads,
-                                const double                                        time,
-                                const std::function<LineToPoint(const LocalIndex)> &law_of,
-                                const bool                                          as_printed,
-                                NodalVector                                        &force);
 } // namespace perideal
 
 #endif

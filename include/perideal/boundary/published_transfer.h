@@ -23,7 +23,7 @@ namespace perideal
    * neither.
    */
   template <int dim>
-  class PublishedTransfer : public TractionTransfer<dim>
+  class PublishedTransfer
   {
   public:
     /// @param chi neither 0 nor 1 [-]
@@ -34,7 +34,7 @@ namespace perideal
                       const double           chi,
                       const double           lambda);
 
-    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const override;
+    void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const;
 
     /// Adds what L makes of places: of those of held faces, and of the nodes' own at rest [N].
     void add_places(const Loads<dim> &loads, const double time, NodalVector &force) const;

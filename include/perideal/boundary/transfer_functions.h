@@ -61,17 +61,6 @@ namespace perideal
     std::vector<double>             volume;
     MPI_Comm                        comm;
   };
-
-  /// Tractions that act in the depth of a horizon.
-  template <int dim>
-  class TractionTransfer
-  {
-  public:
-    virtual ~TractionTransfer() = default;
-
-    /// Adds the forces of tractions and pressures on owned nodes [N].
-    virtual void add_tractions(const Loads<dim> &loads, const double time, NodalVector &force) const = 0;
-  };
 } // namespace perideal
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <perideal/parameters/choice.h>
 #include <perideal/parameters/space_time_function.h>
+#include <perideal/parameters/treatment_list.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/types.h>
@@ -33,50 +34,39 @@ namespace perideal
     static constexpr const char *list[] = {"automatic", "layer", "published", "balanced", "taylor ghosts"};
   };
 
+#define PERIDEAL_TREATMENT_VALUE(name, text, meaning) name,
+#define PERIDEAL_TREATMENT_TEXT(name, text, meaning) text,
+
   /// How prescribed displacements reach the peridynamic nodes.
   enum class DisplacementTreatment
   {
     automatic,
-    face_value,
-    layer,
-    reference,
-    mirror,
-    surface_nodes,
-    taylor_ghosts
+    PERIDEAL_DISPLACEMENT_TREATMENTS(PERIDEAL_TREATMENT_VALUE)
   };
 
   template <>
   struct ChoiceNames<DisplacementTreatment>
   {
-    static constexpr const char *list[] = {
-      "automatic", "face value", "layer", "reference", "mirror", "surface nodes", "taylor ghosts"};
+    static constexpr const char *list[] = {"automatic",
+                                           PERIDEAL_DISPLACEMENT_TREATMENTS(PERIDEAL_TREATMENT_TEXT)};
   };
 
   /// How tractions and pressures reach the nodes.
   enum class TractionTreatment
   {
     automatic,
-    face_value,
-    layer,
-    taylor_ghosts,
-    line_to_point,
-    published_line_to_point,
-    transfer,
-    published_transfer
+    PERIDEAL_TRACTION_TREATMENTS(PERIDEAL_TREATMENT_VALUE)
   };
 
   template <>
   struct ChoiceNames<TractionTreatment>
   {
     static constexpr const char *list[] = {"automatic",
-                                           "face value",
-                                           "layer",
-                                           "taylor ghosts",
-                                           "line to point",
-                                           "published line to point",
-                                           "transfer",
-                                           "published transfer"};
+                                           PERIDEAL_TRACTION_TREATMENTS(PERIDEAL_TREATMENT_TEXT)};
   };
+
+#undef PERIDEAL_TREATMENT_VALUE
+#undef PERIDEAL_TREATMENT_TEXT
 
   /// What is done about rigid-body motions that no condition holds.
   enum class FreeMotions

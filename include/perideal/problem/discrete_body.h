@@ -24,8 +24,6 @@ namespace perideal
   class FaceValues;
   template <int dim>
   class GaussPoints;
-  template <int dim>
-  struct SurfaceFace;
 
   /**
    * What the model and its quadrature make of the body: families, weights and the linear operator of the
@@ -48,10 +46,8 @@ namespace perideal
 
     /// Weighs the families and makes the operator. Collective.
     /// @param face_values prescribed at faces, of models that read them
-    /// @param surface faces of all ranks, where factors of bonds follow from their planes
     void weigh(const Body<dim>                        &body,
                const std::shared_ptr<FaceValues<dim>> &face_values,
-               const std::vector<SurfaceFace<dim>>    &surface,
                const BondPredicate<dim>               &is_cut);
 
     /// Measures the stiffness of whole families, where finite elements are to have it. Collective.
@@ -87,10 +83,8 @@ namespace perideal
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
 
   private:
-    void weigh_nodes(const Body<dim>                     &body,
-                     const std::vector<SurfaceFace<dim>> &surface,
-                     const BondPredicate<dim>            &is_cut);
-    void weigh_gauss_points(const Body<dim> &body, const std::vector<SurfaceFace<dim>> &surface);
+    void weigh_nodes(const Body<dim> &body, const BondPredicate<dim> &is_cut);
+    void weigh_gauss_points(const Body<dim> &body);
     void weigh_faces(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
     void weigh_correspondence(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
   };

@@ -2,7 +2,6 @@
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/boundary/dirichlet_nodes.h>
 #include <perideal/boundary/mirror_layer.h>
-#include <perideal/boundary/nodal_forces.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -195,26 +194,6 @@ TEST(DirichletNodes, InfiniteValuesAreErrors)
   const DirichletNodes<2> nodes(*scene.mesh, scene.nodes, scene.faces, scene.loads, 2);
   expect_input_error([&] { nodes.check_finite(scene.loads, 1., MPI_COMM_WORLD); },
                      {"Boundary conditions/hold 0/u_y", "not a finite number"});
-}
-
-TEST(NodalForces, ResultantsAreExact)
-{
-  auto pulled      = condition("pull", "1");
-  pulled.traction  = {{"2", "3*y", ""}};
-  auto pressed     = condition("press", "3");
-  pressed.pressure = "4*t";
-  const Scene scene({pulled, pressed});
-  NodalVector force = scene.field();
-  compute_nodal_forces(scene.nodes, scene.faces, scene.loads, 0.5, force);
-  double x = 0, y = 0;
-  for (LocalIndex i = 0; i < scene.nodes.size(); ++i)
-    {
-      x += force.local_element(2 * i);
-      y += force.local_element(2 * i + 1);
-    }
-  // 2 over a height of 0.75; 3 y over it (midpoints are exact for linear tractions); 2 over a width of 1.
-  EXPECT_NEAR(sum(x), 1.5, 1e-13);
-  EXPECT_NEAR(sum(y), 1.5 * 0.75 * 0.75 - 2., 1e-13);
 }
 
 TEST(MirrorLayer, ImagesStandBehindThePlaneAndMoveAsTold)

@@ -86,7 +86,7 @@ TEST(LineToPoint, AddsUpToTheTraction)
               sigma,
               1e-5);
   // As printed, xi_2 = 2 h where it is s + h: 30 % are lost.
-  EXPECT_NEAR(integrate(0, horizon, [](const double s) { return of_plane(&LineToPoint::as_printed, s); }),
+  EXPECT_NEAR(integrate(0, horizon, [](const double s) { return of_plane(&LineToPoint::as_published, s); }),
               69.897,
               2e-3);
 }
@@ -104,7 +104,7 @@ TEST(LineToPoint, StretchesABarTooLittle)
   };
   EXPECT_NEAR(lattice_stress(3, -strain / 4), 107.436, 1e-3);
   EXPECT_NEAR(error(&LineToPoint::closed_form, 3), -0.0558, 1e-4);
-  EXPECT_NEAR(error(&LineToPoint::as_printed, 3), -0.2711, 1e-4);
+  EXPECT_NEAR(error(&LineToPoint::as_published, 3), -0.2711, 1e-4);
   EXPECT_NEAR(error(&LineToPoint::closed_form, 6), -0.0113, 1e-4);
-  EXPECT_NEAR(error(&LineToPoint::as_printed, 6), -0.2517, 1e-4);
+  EXPECT_NEAR(error(&LineToPoint::as_published, 6), -0.2517, 1e-4);
 }

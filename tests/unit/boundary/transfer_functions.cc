@@ -57,7 +57,8 @@ namespace
       loads           = resolve_boundaries(mesh, Loads<dim>(text));
     }
 
-    NodalVector forces_of(const TractionTransfer<dim> &transfer) const
+    template <typename Transfer>
+    NodalVector forces_of(const Transfer &transfer) const
     {
       dealii::IndexSet owned(dim * nodes.n_global);
       owned.add_range(dim * nodes.first_global, dim * (nodes.first_global + nodes.size()));
@@ -206,13 +207,12 @@ TEST(BalancedTransfer, IsTheTransferFunctionOnStraightSides)
   pull.traction = {{"3", "", ""}};
   LoadParameters text;
   text.conditions.push_back(pull);
-  const Loads<2>   loads(text);
+  const Loads<2>   loads = resolve_boundaries(*mesh, Loads<2>(text));
   dealii::IndexSet owned(2 * nodes.n_global);
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
   NodalVector balanced(owned, MPI_COMM_WORLD), printed(owned, MPI_COMM_WORLD);
-  BalancedTransfer<2>(TransferFunctions<2>(nodes, faces)).add_tractions(loads, {{1}}, 1., balanced);
-  PublishedTransfer<2>(TransferFunctions<2>(nodes, faces), loads, {{1}}, 3.59, 0.)
-    .add_tractions(loads, {{1}}, 1., printed);
+  BalancedTransfer<2>(TransferFunctions<2>(nodes, faces)).add_tractions(loads, 1., balanced);
+  PublishedTransfer<2>(TransferFunctions<2>(nodes, faces), loads, 3.59, 0.).add_tractions(loads, 1., printed);
   for (LocalIndex i = 0; i < nodes.size(); ++i)
     if (std::abs(nodes.position[i][1] - 1.) < 0.5)
       {
@@ -245,10 +245,10 @@ TEST(PublishedTransfer, HasTheSumsOfLAsPrinted)
   hold.displacement = {{"0.1*y*t", "", ""}};
   LoadParameters text;
   text.conditions.push_back(hold);
-  const Loads<2>             loads(text);
+  const Loads<2>             loads = resolve_boundaries(*mesh, Loads<2>(text));
   const double               chi = 3.59, lambda = 7.;
   TransferFunctions<2>       functions(nodes, faces);
-  const PublishedTransfer<2> transfer(functions, loads, {{0, 3}}, chi, lambda);
+  const PublishedTransfer<2> transfer(functions, loads, chi, lambda);
   dealii::IndexSet           owned(2 * nodes.n_global);
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
   NodalVector force(owned, MPI_COMM_WORLD);

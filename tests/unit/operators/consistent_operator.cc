@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/boundary/body_forces.h>
 #include <perideal/boundary/boundary_faces.h>
-#include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/elastic_state.h>
 #include <perideal/materials/models.h>
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/parameters/elastic_constants.h>
+#include <perideal/treatments/treatments.h>
 
 #include "bodies.h"
 #include "solids.h"
@@ -32,7 +33,9 @@ namespace
         mesh, body.nodes, [&](const auto id) { return solid_of(id).isotropic().shear_modulus(); });
       values = std::make_shared<FaceValues<dim>>(*gradient, loads);
       values->set_time(loads, 1.);
-      bonds = std::make_shared<ConsistentOperator<dim>>(
+      tractions = load_by_face_value<dim>({mesh, body.nodes, faces, loads, text, timings},
+                                          {body.families, gradient, solid_of});
+      bonds     = std::make_shared<ConsistentOperator<dim>>(
         body.families, gradient, values, create_consistent<dim>(parameters, 3.01), solid_of);
       for (NodalVector *vector : {&displacement, &force, &external})
         bonds->initialize(*vector);
@@ -45,7 +48,8 @@ namespace
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         for (int d = 0; d < dim; ++d)
           displacement.local_element(dim * i + d) = function(body.nodes.position[i])[d];
-      compute_forces_at_faces(body.nodes, faces, *gradient, loads, 1., external);
+      set_body_forces(body.nodes, loads, 1., external);
+      tractions->add_tractions(loads, 1., external);
       bonds->internal_force(force, displacement);
       double size = 0, worst = 0;
       for (LocalIndex k = 0; k < dim * body.nodes.size(); ++k)
@@ -64,6 +68,8 @@ namespace
     Loads<dim>                               loads;
     SolidOf<dim>                             solid_of;
     std::shared_ptr<const FaceGradient<dim>> gradient;
+    Timings                                  timings{MPI_COMM_WORLD};
+    std::unique_ptr<Tractions<dim>>          tractions;
     std::shared_ptr<FaceValues<dim>>         values;
     std::shared_ptr<ConsistentOperator<dim>> bonds;
     NodalVector                              displacement, force, external;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/boundary/nodal_forces.h>
 #include <perideal/materials/models.h>
 #include <perideal/solvers/explicit_dynamics.h>
+#include <perideal/treatments/treatments.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -177,9 +177,11 @@ TEST(ExplicitDynamics, PushesABarAtItsSpeed)
   text.conditions           = {push};
   MovingBody moving(*mesh, "extended ordinary", text, 3.01);
   ASSERT_TRUE(moving.loads.forces_depend_on_time());
-  const auto faces    = find_boundary_faces(*mesh, moving.body.nodes);
-  auto       dynamics = moving.dynamics(0.3);
-  const auto end      = [&]() {
+  const auto faces = find_boundary_faces(*mesh, moving.body.nodes);
+  Timings    timings(MPI_COMM_WORLD);
+  const auto tractions = load_by_layer<2>({*mesh, moving.body.nodes, faces, moving.loads, text, timings}, {});
+  auto       dynamics  = moving.dynamics(0.3);
+  const auto end       = [&]() {
     double     sum = 0;
     LocalIndex n   = 0;
     for (LocalIndex i = 0; i < moving.body.nodes.size(); ++i)
@@ -197,7 +199,8 @@ TEST(ExplicitDynamics, PushesABarAtItsSpeed)
     {
       while (dynamics.time() < times[k])
         {
-          compute_nodal_forces(moving.body.nodes, faces, moving.loads, dynamics.time(), force);
+          force = 0.;
+          tractions->add_tractions(moving.loads, dynamics.time(), force);
           dynamics.evaluate(force);
           dynamics.advance();
         }

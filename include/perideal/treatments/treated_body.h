@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_treatments_treated_body_h
+#define perideal_treatments_treated_body_h
+
+#include <perideal/base/timing.h>
+#include <perideal/boundary/boundary_faces.h>
+#include <perideal/materials/linear_model.h>
+#include <perideal/neighbourhood/families.h>
+#include <perideal/reconstruction/face_gradient.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// The body in its nodes, and its loads. What is referred to must outlive the treatments.
+  template <int dim>
+  struct TreatedBody
+  {
+    const Mesh<dim>                      &mesh;
+    const Nodes<dim>                     &nodes;
+    const std::vector<BoundaryFace<dim>> &faces;
+    const Loads<dim>                     &loads;
+    const LoadParameters                 &parameters;
+    Timings                              &timings;
+  };
+
+  /// What treatments may want to know of the bonds of that body.
+  template <int dim>
+  struct TreatedBonds
+  {
+    std::shared_ptr<const Families<dim>> families;
+    /// Where the scene needs one; the consistent form does.
+    std::shared_ptr<const FaceGradient<dim>> gradient;
+    /// As the model takes them.
+    SolidOf<dim> solid_of;
+  };
+} // namespace perideal
+
+#endif
