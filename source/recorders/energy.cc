@@ -45,20 +45,26 @@ namespace perideal
 
         if (!kind.has_motion || !(std::abs(step.energy_error) <= std::abs(worst)))
           worst = step.energy_error;
-        Json &summary = record.summary["energy"];
-        summary       = {{"strain", energy.strain}};
+        Json summary      = Json::object();
+        summary["strain"] = energy.strain;
         if (kind.has_motion)
-          summary.update({{"kinetic", energy.kinetic}, {"contact", energy.contact}});
+          {
+            summary["kinetic"] = energy.kinetic;
+            summary["contact"] = energy.contact;
+          }
         if (is_nonlinear)
           summary["dissipated"] = energy.dissipated;
         if (kind.has_motion)
-          {
-            summary["damped"]          = energy.damped;
-            record.summary["momentum"] = Json::array();
-            for (int d = 0; d < dim; ++d)
-              record.summary["momentum"].push_back(step.momentum[d]);
-          }
-        summary.update({{"external", energy.external}, {"drift", worst}});
+          summary["damped"] = energy.damped;
+        summary["external"]      = energy.external;
+        summary["drift"]         = worst;
+        record.summary["energy"] = summary;
+        if (!kind.has_motion)
+          return;
+        Json momentum = Json::array();
+        for (int d = 0; d < dim; ++d)
+          momentum.push_back(step.momentum[d]);
+        record.summary["momentum"] = momentum;
       }
 
       std::string describe(const Json &summary, const bool) const override
