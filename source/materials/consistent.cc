@@ -7,12 +7,6 @@
 
 namespace perideal
 {
-  const DiscretisationTraits &traits_of(const Discretisation discretisation)
-  {
-    static const DiscretisationTraits families, faces = {true, true, true, false};
-    return discretisation == Discretisation::faces ? faces : families;
-  }
-
   FormTraits consistent_form()
   {
     // Of the smallest errors on plates with a hole: a larger stabilisation spoils coarse meshes, a smaller

@@ -19,29 +19,20 @@ namespace perideal
 {
   struct ModelParameters;
 
-  /// Where the strain of a node comes from, whatever the model makes of it: from the bonds of its family, or
-  /// from the faces of its cell (the consistent form, materials/consistent.h).
+  /**
+   * Where the strain of a node comes from, whatever a model makes of it.
+   *
+   * - families: from the bonds of its family.
+   * - faces: from the face gradient of its cell (materials/consistent.h). Every node must have a cell then:
+   *   fictitious nodes and nodes on the surface have none, and no crack cuts a face. Displacements and
+   *   tractions are taken at faces, the horizon may have the shape of the cells, and bonds only stabilise,
+   *   for which whole cells serve.
+   */
   enum class Discretisation
   {
     families,
     faces
   };
-
-  /// What a discretisation asks for.
-  struct DiscretisationTraits
-  {
-    /// It takes gradients from the faces of cells, which every node must have: fictitious nodes and nodes on
-    /// the surface have none, and no crack cuts a face.
-    bool needs_face_gradient = false;
-    /// It takes displacements and tractions at faces.
-    bool takes_conditions_at_faces = false;
-    /// Its horizon may have the shape of the cells.
-    bool takes_horizon_of_cells = false;
-    /// Its bonds count parts of cells where a scheme says so.
-    bool takes_volume_schemes = true;
-  };
-
-  const DiscretisationTraits &traits_of(const Discretisation discretisation);
 
   /// The solvers that a form serves besides linear statics.
   struct Solvers
