@@ -18,6 +18,13 @@ namespace perideal
     return result;
   }
 
+  Eigen::VectorXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
+                                          const Eigen::VectorXd &right_hand_side,
+                                          const double           tolerance)
+  {
+    return PseudoInverse<Eigen::MatrixXd>(matrix, tolerance).solve(right_hand_side);
+  }
+
   template <int dim>
   bool inverse_root(const Eigen::Matrix<double, dim, dim> &matrix,
                     const double                           smallest,

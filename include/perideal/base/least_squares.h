@@ -65,6 +65,12 @@ namespace perideal
     Eigen::Index n_free = 0;
   };
 
+  /// Solves by PseudoInverse. Compiled once, with sizes known at run time: the eigenvalues of each size known
+  /// to the compiler take it half a minute.
+  Eigen::VectorXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
+                                          const Eigen::VectorXd &right_hand_side,
+                                          const double           tolerance);
+
   /**
    * Solves the normal equations of a fit, scaled to a unit diagonal, with the change of smallest norm where
    * they depend on each other: by Cholesky's factorisation, and by PseudoInverse where that may hide a
@@ -77,7 +83,7 @@ namespace perideal
     const Eigen::LLT<Matrix> cholesky(matrix);
     if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().minCoeff() > 1e-3)
       return cholesky.solve(right_hand_side);
-    return PseudoInverse<Matrix>(matrix, tolerance).solve(right_hand_side);
+    return solve_by_pseudo_inverse(matrix, right_hand_side, tolerance);
   }
 
   /// The pseudo-inverse of a symmetric tensor whose eigenvalues up to @p smallest count as zero; deal.II
