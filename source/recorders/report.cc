@@ -11,12 +11,13 @@ namespace perideal
   std::string timing_table(const std::map<std::string, double> &seconds)
   {
     std::vector<std::vector<std::string>> rows;
-    const double                          total = seconds.at("total");
-    for (const auto &phase : seconds)
-      if (phase.first != "total")
-        rows.push_back({phase.first,
-                        short_number(phase.second),
-                        std::to_string(static_cast<int>(std::lround(100 * phase.second / total))) + " %"});
+    const double                          total  = seconds.at("total");
+    auto                                  phases = seconds;
+    phases.erase("total");
+    for (const auto &[phase, taken] : phases)
+      rows.push_back({phase,
+                      short_number(taken),
+                      std::to_string(static_cast<int>(std::lround(100 * taken / total))) + " %"});
     rows.push_back({"total", short_number(total), "100 %"});
     return report_table({"phase", "seconds", "share"}, rows);
   }
@@ -36,7 +37,7 @@ namespace perideal
             rows.push_back(
               {"  " + component.key() + " along " + profile.key(), "", number(component.value())});
       for (const auto &item : errors.items())
-        if (item.value().is_object() && item.key() != "profiles")
+        if (item.value().is_object() && item.value().contains("l2"))
           add_error_rows(item.value(), title + ", " + item.key(), rows);
     }
   } // namespace
