@@ -12,6 +12,12 @@ namespace perideal
     return std::sqrt(1.5) * dealii::deviator(stress).norm();
   }
 
+  double ElasticState::triaxiality() const
+  {
+    const double shear = von_mises(), mean = trace(stress) / 3.;
+    return shear > 1e-14 * std::abs(mean) ? mean / shear : 0.;
+  }
+
   std::pair<double, double> ElasticState::principal_range() const
   {
     // Jacobi's method, because the closed formulas lose half the digits where two values are equal.

@@ -173,6 +173,11 @@ namespace perideal
                s, "smallest_principal_stress", std::mem_fn(&ElasticState::smallest_principal), o);
            },
            Source::gradient}},
+         {"triaxiality",
+          {[](Scene s, Output o) {
+             add_state_scalar(s, "triaxiality", std::mem_fn(&ElasticState::triaxiality), o);
+           },
+           Source::gradient}},
          {"strain energy density",
           {[](Scene s, Output o) {
              add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);

@@ -20,6 +20,8 @@ namespace perideal
 
     /// Von Mises' equivalent stress [Pa].
     double von_mises() const;
+    /// Mean stress over von Mises' stress [-], 1/3 in uniaxial tension; 0 where nothing is sheared.
+    double triaxiality() const;
     /// Largest and smallest of the three principal stresses [Pa].
     double largest_principal() const { return principal_range().first; }
     double smallest_principal() const { return principal_range().second; }

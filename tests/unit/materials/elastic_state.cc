@@ -111,3 +111,18 @@ TEST(ElasticState, EquivalentAndPrincipalStresses)
   EXPECT_NEAR(state.largest_principal(), 9e6, 1e-7);
   EXPECT_NEAR(state.smallest_principal(), -1e6, 1e-7);
 }
+
+TEST(ElasticState, TriaxialityOfKnownStates)
+{
+  ElasticState state;
+  EXPECT_EQ(state.triaxiality(), 0.);
+  state.stress = plane_stress_of(2e6, 0, 0);
+  EXPECT_NEAR(state.triaxiality(), 1. / 3., 1e-15);
+  state.stress = plane_stress_of(-2e6, -2e6, 0);
+  EXPECT_NEAR(state.triaxiality(), -2. / 3., 1e-15);
+  state.stress = plane_stress_of(0, 0, 3e6);
+  EXPECT_NEAR(state.triaxiality(), 0., 1e-15);
+  // Nothing is sheared: no quotient of rounding errors.
+  state.stress = 5e6 * dealii::unit_symmetric_tensor<3>();
+  EXPECT_EQ(state.triaxiality(), 0.);
+}
