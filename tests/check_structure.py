@@ -34,6 +34,7 @@ TEXT_IS_READ_IN = {
     "source/mesh/mesh_file.cc",
     "source/mesh/read_gmsh.cc",
     "source/output/checkpoint.cc",
+    "source/output/checkpoint_file.cc",
     "source/parameters/parameter_file.cc",
     "source/parameters/point_text.cc",
 }

@@ -83,8 +83,12 @@ namespace perideal
     bool          goes_on = false;
     std::ofstream csv;
 
-    std::vector<std::string>                   row_names;
-    std::vector<double>                        row_values;
+    struct Row
+    {
+      std::vector<std::string> names;
+      std::vector<double>      values;
+    };
+    Row                                        next_row;
     std::vector<std::string>                   column_names;
     std::vector<std::vector<double>>           columns;
     std::map<std::string, std::vector<double>> series;
