@@ -7,8 +7,9 @@ namespace perideal
 {
   CommandLine CommandLine::parse(const int argc, const char *const *argv)
   {
-    const std::vector<std::string> options = {"--set", "--check", "--parameters", "--help", "--version"};
-    CommandLine                    result;
+    const std::vector<std::string> options = {
+      "--set", "--check", "--parameters", "--rules", "--help", "--version"};
+    CommandLine result;
     for (int k = 0; k < argc; ++k)
       result.command += (k > 0 ? " " : "") + std::string(argv[k]);
     for (int k = 1; k < argc; ++k)
@@ -26,6 +27,8 @@ namespace perideal
             if (k + 1 < argc)
               result.format = argv[++k];
           }
+        else if (word == "--rules")
+          result.action = Action::print_rules;
         else if (word == "--set")
           {
             if (k + 1 == argc)
@@ -57,6 +60,8 @@ namespace perideal
            "  perideal --check FILE.prm [--set ...]               read, mesh, count and warn; solve nothing\n"
            "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, "
            "meaning\n"
+           "  perideal --rules                                    which choices do not go together, as "
+           "markdown\n"
            "  perideal --help | --version\n"
            "  mpirun -np N perideal FILE.prm                      the same on N cores\n"
            "\n"

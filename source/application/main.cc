@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/command_line.h>
 #include <perideal/application/gate.h>
+#include <perideal/application/read_scene.h>
+#include <perideal/application/rules.h>
 #include <perideal/base/exceptions.h>
 #include <perideal/base/versions.h>
 #include <perideal/drivers/driver.h>
@@ -36,7 +38,7 @@ namespace
       {
         dealii::ParameterHandler prm;
         SceneParameters          scene;
-        scene.read(file, prm);
+        read_scene(file, prm, scene);
 
         RunContext context;
         context.command         = command_line.command;
@@ -80,6 +82,9 @@ namespace
         break;
       case CommandLine::Action::print_parameters:
         print_parameters(text, command_line.format);
+        break;
+      case CommandLine::Action::print_rules:
+        print_rules(text);
         break;
       default:
         process(command_line);

@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/text.h>
+#include <perideal/parameters/declarations.h>
 #include <perideal/problem/scene_parameters.h>
 
-#include <boost/property_tree/json_parser.hpp>
-
 #include <ostream>
-#include <sstream>
 
 namespace perideal
 {
   namespace
   {
     /// One table row a parameter, one heading a section.
-    void
-    print_markdown(std::ostream &out, const boost::property_tree::ptree &section, const std::string &path)
+    void print_markdown(std::ostream &out, const Declarations &section, const std::string &path)
     {
-      const auto is_parameter = [](const auto &entry) {
-        return entry.second.find("pattern_description") != entry.second.not_found();
-      };
-      const auto cell = [](std::string text) {
-        for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
-          text.insert(at, "\\");
-        return text;
-      };
       out << "## " << (path.empty() ? "Top of the file" : path) << "\n\n"
           << "| parameter | default | allowed | meaning |\n|---|---|---|---|\n";
       for (const auto &entry : section)
-        if (is_parameter(entry))
-          out << "| `" << entry.first << "` | " << cell(entry.second.get<std::string>("default_value"))
-              << " | " << cell(entry.second.get<std::string>("pattern_description")) << " | "
-              << cell(entry.second.get<std::string>("documentation")) << " |\n";
+        if (is_parameter(entry.second))
+          out << "| `" << entry.first << "` | "
+              << markdown_cell(entry.second.get<std::string>("default_value")) << " | "
+              << markdown_cell(entry.second.get<std::string>("pattern_description")) << " | "
+              << markdown_cell(entry.second.get<std::string>("documentation")) << " |\n";
       out << '\n';
       for (const auto &entry : section)
-        if (!is_parameter(entry))
+        if (!is_parameter(entry.second))
           print_markdown(out, entry.second, path.empty() ? entry.first : path + "/" + entry.first);
     }
   } // namespace
@@ -61,14 +52,7 @@ namespace perideal
       prm.print_parameters(out,
                            dealii::ParameterHandler::PRM | dealii::ParameterHandler::KeepDeclarationOrder);
     else if (format == "markdown")
-      {
-        std::stringstream json;
-        prm.print_parameters(json,
-                             dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
-        boost::property_tree::ptree tree;
-        boost::property_tree::read_json(json, tree);
-        print_markdown(out, tree, "");
-      }
+      print_markdown(out, declarations(prm, true), "");
     else
       throw InputError("unknown format of --parameters").given(format).allowed("text | prm | markdown");
   }

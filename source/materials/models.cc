@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
 
 /// The list of models: a new one is one file, with its traits in a function of this name, and one line here.
 #define PERIDEAL_MODELS(MODEL)                                                                               \
@@ -125,62 +123,11 @@ namespace perideal
       form = use == Use::statics ? model->default_forms.statics :
              use == Use::motion  ? model->default_forms.motion :
                                    model->default_forms.failure;
-    const auto own = form_names(*model);
-    if (has_forms() && std::count(own.begin(), own.end(), form) == 0)
-      throw InputError("this is no form of the model")
-        .parameter("Material/Form")
-        .given(form)
-        .allowed("automatic | " + join_choices(own) + " for Model = " + model->name);
-    if (!law->is_linear && !model->has_law)
-      throw InputError("the bonds of this model have no law of the continuum")
-        .parameter("Material/Law")
-        .given(law->name)
-        .allowed("linear elastic for Model = " + model->name)
-        .hint("or set Material/Model = correspondence");
-    if (stretch_formula == StretchFormula::tensor_involved && !model->has_bond_tensors)
-      throw InputError("the bonds of this model have no tensors")
-        .parameter("Material/Stretch formula")
-        .given(name_of(stretch_formula))
-        .allowed("automatic | ordinary for Model = " + model->name);
-    if (compensates() && !model->has_one_micromodulus)
-      throw InputError("only springs are stiffened near the surface")
-        .parameter("Material/Boundary compensation")
-        .given(name_of(boundary_compensation))
-        .allowed("none for Model = " + model->name);
-    if (compensation_of_a_bond != CompensationOfABond::mean && !compensates())
-      throw InputError("no bond has a factor")
-        .parameter("Material/Compensation of a bond")
-        .given(name_of(compensation_of_a_bond))
-        .allowed("mean; or set Material/Boundary compensation = numerical | closed form");
     const FormTraits &traits = form_traits();
     if (influence_function == automatic)
       influence_function = traits.defaults.influence_function;
-    if (after_the_cut() && !traits.has_multipliers)
-      throw InputError("this model has no multipliers that a cut could change")
-        .parameter("Material/Multipliers")
-        .given(name_of(multipliers))
-        .allowed("intact; or set Material/Model = extended ordinary with Form = energy | paper");
-    if (recomputes() && !traits.follows_from_energy)
-      throw InputError("weights that change as bonds break need a force that follows from an energy")
-        .parameter("Material/Multipliers")
-        .given(name_of(multipliers))
-        .allowed("intact | after the cut; or set Material/Form = energy");
-    if (stabilisation == automatic)
-      {
-        if (traits.defaults.stabilisation[dimension - 2] > 0)
-          stabilisation = std::to_string(traits.defaults.stabilisation[dimension - 2]);
-        return;
-      }
-    char        *end        = nullptr;
-    const double value      = std::strtod(stabilisation.c_str(), &end);
-    const bool   may_vanish = model->has_law;
-    if (stabilisation.empty() || *end != 0 || !(may_vanish ? value >= 0 : value > 0) || !std::isfinite(value))
-      throw InputError("the stabilisation is out of range")
-        .parameter("Material/Stabilisation")
-        .given(stabilisation)
-        .allowed(may_vanish ?
-                   "automatic, or a number >= 0" :
-                   "automatic, or a number > 0; without it the consistent form has modes without energy");
+    if (stabilisation == automatic && traits.defaults.stabilisation[dimension - 2] > 0)
+      stabilisation = std::to_string(traits.defaults.stabilisation[dimension - 2]);
   }
 
   const FormTraits &ModelParameters::form_traits() const
@@ -192,15 +139,6 @@ namespace perideal
       if (traits.name == form)
         return traits;
     return none;
-  }
-
-  std::vector<std::string> ModelParameters::forms_of_motion() const
-  {
-    std::vector<std::string> result;
-    for (const FormTraits &traits : model->forms)
-      if (traits.solvers.dynamics)
-        result.push_back(traits.name);
-    return result;
   }
 
   ElasticConstants ModelParameters::constants_of_model(const ElasticConstants &constants) const

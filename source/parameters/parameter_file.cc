@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/registry.h>
+#include <perideal/parameters/declarations.h>
 #include <perideal/parameters/parameter_file.h>
 
 #include <deal.II/base/utilities.h>
-
-#include <boost/property_tree/json_parser.hpp>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace perideal
@@ -46,92 +46,63 @@ namespace perideal
       return true;
     }
 
-    using Tree = boost::property_tree::ptree;
-
-    /// Everything declared, with default, pattern and description, as ParameterHandler keeps it.
-    Tree declarations(const dealii::ParameterHandler &prm)
-    {
-      std::stringstream json;
-      prm.print_parameters(json, dealii::ParameterHandler::JSON);
-      Tree tree;
-      boost::property_tree::read_json(json, tree);
-      return tree;
-    }
-
-    bool is_parameter(const Tree &entry)
-    {
-      return entry.find("pattern_description") != entry.not_found();
-    }
-
-    /// Names of the parameters, or of the subsections, directly in a section.
-    std::vector<std::string> declared_names(const Tree &section, const bool parameters)
-    {
-      std::vector<std::string> result;
-      for (const auto &child : section)
-        if (is_parameter(child.second) == parameters)
-          result.push_back(child.first);
-      return result;
-    }
-
     std::string title(const std::string &section)
     {
       return section.empty() ? "the top of the file" : "section \"" + section + "\"";
     }
 
-    /// The declarations of the section an assignment stands in.
-    const Tree &find_section(const Tree &all, const ParameterFile::Assignment &assignment)
+    /// Where an assignment belongs: declarations of its section and parameter, as far as they are found.
+    struct Place
     {
-      const Tree *section = &all;
+      const Declarations *section = nullptr, *parameter = nullptr;
+      /// What was meant instead, where something is misspelt: a path, or "Section/".
+      std::string meant;
+    };
+
+    /// @param errors gets what is misspelt, a section once
+    /// @param unknown_sections that were met so far
+    Place find_place(const Declarations              &all,
+                     const ParameterFile::Assignment &assignment,
+                     std::set<std::string>           &unknown_sections,
+                     InputErrorCollector             &errors)
+    {
+      Place       place{&all, nullptr, ""};
       std::string above;
       for (const std::string &part : split_path(assignment.section))
         {
-          const auto child = section->find(part);
-          if (child == section->not_found() || is_parameter(child->second))
+          const auto child = place.section->find(part);
+          if (child == place.section->not_found() || is_parameter(child->second))
             {
-              const auto known = declared_names(*section, false);
-              throw InputError("unknown section in " + title(above))
-                .location(assignment.origin)
-                .given("subsection " + part)
-                .allowed(join_choices(known))
-                .nearest(nearest_name(part, known));
+              const auto        known = declared_names(*place.section, false);
+              const std::string meant = nearest_name(part, known);
+              place.meant             = meant.empty() ? "" : above + meant + "/";
+              if (unknown_sections.insert(above + part).second)
+                errors.add(InputError("unknown section in " +
+                                      title(above.empty() ? above : above.substr(0, above.size() - 1)))
+                             .location(assignment.origin)
+                             .given("subsection " + part)
+                             .allowed(join_choices(known))
+                             .nearest(nearest_name(part, known)));
+              return place;
             }
-          section = &child->second;
-          above += (above.empty() ? "" : "/") + part;
+          place.section = &child->second;
+          above += part + "/";
         }
-      return *section;
-    }
-
-    /// The declaration of the assigned parameter.
-    const Tree &find_parameter(const Tree &section, const ParameterFile::Assignment &assignment)
-    {
-      const auto entry = section.find(assignment.name);
-      if (entry != section.not_found() && is_parameter(entry->second))
-        return entry->second;
-      const auto known = declared_names(section, true);
-      throw InputError("unknown parameter in " + title(assignment.section))
-        .location(assignment.origin)
-        .given(assignment.name)
-        .allowed(join_choices(known))
-        .nearest(nearest_name(assignment.name, known));
-    }
-
-    /// The choices of a "[Selection a|b ]" pattern, none for other patterns.
-    std::vector<std::string> selection_of(const std::string &pattern)
-    {
-      const std::string start = "[Selection ";
-      if (pattern.compare(0, start.size(), start) != 0)
-        return {};
-      return dealii::Utilities::split_string_list(
-        pattern.substr(start.size(), pattern.rfind(']') - start.size()), '|');
-    }
-
-    /// A pattern in the words of our messages.
-    std::string describe_pattern(const std::string &pattern)
-    {
-      const auto choices = selection_of(pattern);
-      if (!choices.empty())
-        return join_choices(choices);
-      return dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
+      const auto entry = place.section->find(assignment.name);
+      if (entry != place.section->not_found() && is_parameter(entry->second))
+        {
+          place.parameter = &entry->second;
+          return place;
+        }
+      const auto        known = declared_names(*place.section, true);
+      const std::string meant = nearest_name(assignment.name, known);
+      place.meant             = meant.empty() ? "" : above + meant;
+      errors.add(InputError("unknown parameter in " + title(assignment.section))
+                   .location(assignment.origin)
+                   .given(assignment.name)
+                   .allowed(join_choices(known))
+                   .nearest(nearest_name(assignment.name, known)));
+      return place;
     }
 
     /// What a value is called now that had another name in the past.
@@ -181,7 +152,8 @@ namespace perideal
   ParameterFile ParameterFile::parse(const std::string &text, const std::string &filename)
   {
     ParameterFile result;
-    result.filename = filename;
+    result.filename                       = filename;
+    InputErrorCollector     &broken_lines = result.broken_lines;
     std::vector<std::string> section, opened_at;
     std::istringstream       lines(text);
     std::string              line, rest;
@@ -203,7 +175,10 @@ namespace perideal
         else if (line == "end")
           {
             if (section.empty())
-              throw InputError("\"end\" without a subsection").location(where);
+              {
+                broken_lines.add(InputError("\"end\" without a subsection").location(where));
+                continue;
+              }
             section.pop_back();
             opened_at.pop_back();
           }
@@ -211,25 +186,28 @@ namespace perideal
           {
             const std::size_t equals = rest.find('=');
             if (equals == std::string::npos)
-              throw InputError("no \"=\" in this line")
-                .location(where)
-                .given(line)
-                .allowed("set NAME = VALUE");
+              {
+                broken_lines.add(InputError("no \"=\" in this line")
+                                   .location(where)
+                                   .given(line)
+                                   .allowed("set NAME = VALUE"));
+                continue;
+              }
             result.assignments.push_back({join(section),
                                           dealii::Utilities::trim(rest.substr(0, equals)),
                                           dealii::Utilities::trim(rest.substr(equals + 1)),
                                           where});
           }
         else
-          throw InputError("line not understood")
-            .location(where)
-            .given(line)
-            .allowed("set NAME = VALUE | subsection NAME | end | # comment");
+          broken_lines.add(InputError("line not understood")
+                             .location(where)
+                             .given(line)
+                             .allowed("set NAME = VALUE | subsection NAME | end | # comment"));
       }
     if (!section.empty())
-      throw InputError("subsection \"" + section.back() + "\" is never closed")
-        .location(opened_at.back())
-        .hint("add a line \"end\"");
+      broken_lines.add(InputError("subsection \"" + section.back() + "\" is never closed")
+                         .location(opened_at.back())
+                         .hint("add a line \"end\""));
     return result;
   }
 
@@ -275,23 +253,42 @@ namespace perideal
     return value;
   }
 
-  void ParameterFile::apply(dealii::ParameterHandler &prm) const
+  std::vector<std::string> ParameterFile::apply(dealii::ParameterHandler &prm,
+                                                InputErrorCollector      &errors) const
   {
-    const Tree all = declarations(prm);
+    for (const InputError &error : broken_lines.list())
+      errors.add(error);
+    const Declarations       all = declarations(prm);
+    std::set<std::string>    unknown_sections;
+    std::vector<std::string> not_read;
     for (const Assignment &assignment : assignments)
       {
-        const Tree &declared = find_parameter(find_section(all, assignment), assignment);
-        if (!set_value(prm, assignment))
+        const Place place = find_place(all, assignment, unknown_sections, errors);
+        if (!place.parameter)
           {
-            const std::string allowed = declared.get<std::string>("pattern_description");
-            throw InputError("this value is not allowed")
-              .location(assignment.origin)
-              .parameter(assignment.path())
-              .given(assignment.value)
-              .allowed(describe_pattern(allowed))
-              .nearest(nearest_name(assignment.value, selection_of(allowed)));
+            if (!place.meant.empty())
+              not_read.push_back(place.meant);
+          }
+        else if (!set_value(prm, assignment))
+          {
+            const std::string allowed = place.parameter->get<std::string>("pattern_description");
+            errors.add(InputError("this value is not allowed")
+                         .location(assignment.origin)
+                         .parameter(assignment.path())
+                         .given(assignment.value)
+                         .allowed(describe_pattern(allowed))
+                         .nearest(nearest_name(assignment.value, selection_of(allowed))));
+            not_read.push_back(assignment.path());
           }
       }
+    return not_read;
+  }
+
+  bool ParameterFile::gives(const std::string &path) const
+  {
+    return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment &assignment) {
+      return assignment.path() == path;
+    });
   }
 
   InputError ParameterFile::locate(InputError error) const

@@ -89,12 +89,8 @@ namespace perideal
     template <int dim>
     void warn_of_motion(const Problem<dim> &problem, std::vector<std::string> &result)
     {
-      const ModelParameters &model = problem.parameters.model;
-      if (problem.parameters.solver.is_dynamic() && !model.form_traits().follows_from_energy)
-        result.push_back(
-          "the paper's forces follow from no energy: free motions may grow by themselves at any time step; "
-          "Material/Form = energy conserves energy");
-      const auto &conditions = problem.loading.loads.conditions;
+      const ModelParameters &model      = problem.parameters.model;
+      const auto            &conditions = problem.loading.loads.conditions;
       if (model.is_tensor_involved() && !model.is_consistent() &&
           std::none_of(
             conditions.begin(), conditions.end(), [](const auto &c) { return c.prescribes_displacement(); }))
@@ -204,7 +200,7 @@ namespace perideal
   template <int dim>
   std::vector<std::string> warnings(const Problem<dim> &problem)
   {
-    std::vector<std::string> result;
+    std::vector<std::string> result     = problem.parameters.warnings;
     const bool               consistent = problem.parameters.model.is_consistent();
     const auto               statistics = problem.discretisation.families->statistics();
     const unsigned int       wanted     = dim == 2 ? 5 : 15;
@@ -219,21 +215,12 @@ namespace perideal
         result.push_back(grouped(thin) +
                          " cells lie in parts one cell thick, across which they have no gradient: take "
                          "two cells, or Material/Form = family");
-    if (problem.parameters.model.is_correspondence() && !consistent &&
-        std::stod(problem.parameters.model.stabilisation) == 0)
-      result.push_back(
-        "without a penalty the gradient of the family hardly sees some motions, which then cost next "
-        "to no energy: take Material/Stabilisation = automatic");
     if (problem.discretisation.parts->n_bonds_across > 0)
       result.push_back(
         grouped(problem.discretisation.parts->n_bonds_across) +
         " bonds join parts of the mesh that share no face, across gaps narrower than the horizon: they "
         "move as one body. Refine until the gap is wider, or, where the solver knows Precracks, lay one "
         "into it");
-    const double nu     = problem.parameters.material.body.poisson_ratio;
-    const bool   stress = dim == 2 && problem.parameters.material.assumption == PlaneAssumption::plane_stress;
-    if (!stress && nu > 0.45)
-      result.push_back("nu = " + short_number(nu) + " is nearly incompressible: expect many iterations");
     if (problem.discretisation.counts.singular > 0)
       result.push_back(
         grouped(problem.discretisation.counts.singular) +
@@ -253,8 +240,6 @@ namespace perideal
         }
     warn_of_surfaces(problem, result);
     warn_of_motion(problem, result);
-    if (consistent && problem.parameters.loads.holds_layer())
-      result.push_back("held nodes take from the consistent form the accuracy that face values have");
     if (problem.loading.tractions->complete_families())
       {
         const ElasticSolid<dim> &solid = problem.body.solids.begin()->second;

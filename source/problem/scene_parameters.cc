@@ -146,42 +146,6 @@ namespace perideal
     prm.leave_subsection();
   }
 
-  void SceneParameters::read(const ParameterFile &file, dealii::ParameterHandler &prm)
-  {
-    declare(prm, file);
-    file.apply(prm);
-    nodes.check();
-    quadrature.check();
-    material.check(dimension);
-    solver.check();
-    cracks.check();
-    contact.check();
-    resolve();
-    if (comparison.reference_refinements < 0 && mesh.refinements == 0)
-      throw InputError("the mesh of the reference cannot be coarser than one that was not refined")
-        .parameter("Comparison/Reference refinements")
-        .allowed("0 to 4, or -1 where Mesh/Refinements is 1 or more");
-    if (!comparison.reference_mesh.empty() && comparison.reference_refinements < 0)
-      throw InputError("a mesh of its own for the reference is not refined before")
-        .parameter("Comparison/Reference refinements")
-        .allowed("0 to 4 with a Reference mesh");
-    if (!comparison.reference_mesh.empty() && !comparison.reference &&
-        loads.displacement_treatment != DisplacementTreatment::reference)
-      throw InputError("a mesh is given for a reference that is not asked for")
-        .parameter("Comparison/Reference mesh")
-        .hint("set Comparison/Reference = true, or remove it");
-    for (const std::string &field : field_names())
-      {
-        const auto known = output_field_names();
-        if (std::find(known.begin(), known.end(), field) == known.end())
-          throw InputError("unknown field")
-            .parameter("Output/Fields")
-            .given(field)
-            .allowed(join_choices(known))
-            .nearest(nearest_name(field, known));
-      }
-  }
-
   std::vector<std::string> SceneParameters::field_names() const
   {
     return dealii::Utilities::split_string_list(fields, ',');

@@ -15,6 +15,7 @@ namespace perideal
       run,
       check,
       print_parameters,
+      print_rules,
       help,
       version
     };

@@ -15,6 +15,14 @@ namespace perideal
       text.insert(at, ",");
     return text;
   }
+
+  /// A text as it stands in a cell of a markdown table.
+  inline std::string markdown_cell(std::string text)
+  {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+      text.insert(at, "\\");
+    return text;
+  }
 } // namespace perideal
 
 #endif

@@ -100,8 +100,6 @@ namespace perideal
     };
 
     /// Puts what serves the model best in the place of "automatic".
-    /// @throws InputError on a stabilisation that is not a positive number, on a form or multipliers of a
-    /// model without.
     void resolve(const int dimension, const Use use = Use::statics);
 
     /// What the chosen form says of itself; as long as it is "automatic", or none of the model, what forms
@@ -124,9 +122,6 @@ namespace perideal
 
     /// Bonds with what they lack at surfaces, by the face gradient.
     bool has_surface_cure() const { return form_traits().has_surface_cure; }
-
-    /// Forms of the model whose bonds can break and move.
-    std::vector<std::string> forms_of_motion() const;
 
     /// Serves linear statics only.
     bool is_linear_only() const { return !form_traits().solvers.quasi_statics; }

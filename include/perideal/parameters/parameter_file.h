@@ -2,7 +2,7 @@
 #ifndef perideal_parameters_parameter_file_h
 #define perideal_parameters_parameter_file_h
 
-#include <perideal/base/exceptions.h>
+#include <perideal/base/input_errors.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -19,7 +19,8 @@ namespace perideal
    * here the user names some (boundary conditions, materials). So the file is
    * first read as plain lines, the named subsections are declared from
    * subsections(), and apply() then sets and checks every value, with messages
-   * that name file, line, parameter, given and allowed values.
+   * that name file, line, parameter, given and allowed values. What is wrong is
+   * kept until all lines have been looked at.
    */
   class ParameterFile
   {
@@ -40,7 +41,7 @@ namespace perideal
 
     ParameterFile() = default;
 
-    /// @throws InputError when the file is missing or a line is not understood.
+    /// @throws InputError when the file is missing; lines that are not understood are mistakes of apply().
     static ParameterFile read(const std::string &filename);
 
     /// As read(), from text; @p filename is used in messages only.
@@ -56,9 +57,14 @@ namespace perideal
     /// The last value given to a parameter, or @p default_value.
     std::string value_of(const std::string &path, const std::string &default_value) const;
 
-    /// Sets every value in @p prm. A misspelt section or name, and a value that
-    /// does not match its pattern, end in an InputError that lists the choices.
-    void apply(dealii::ParameterHandler &prm) const;
+    /// Sets every value in @p prm that can be read; the others keep their defaults. Lines that are not
+    /// understood, misspelt sections and names, and values that do not match their pattern, go to
+    /// @p errors with the choices there are.
+    /// @return paths of what was not read, as far as it can be guessed, "Section/" where that is a section
+    std::vector<std::string> apply(dealii::ParameterHandler &prm, InputErrorCollector &errors) const;
+
+    /// Whether the file or an override gives this parameter.
+    bool gives(const std::string &path) const;
 
     /// Adds file, line and given value to an error that names only a parameter.
     InputError locate(InputError error) const;
@@ -67,6 +73,8 @@ namespace perideal
     std::vector<Assignment>  assignments;
     std::vector<std::string> sections;
     std::string              filename;
+    /// Lines that were not understood.
+    InputErrorCollector broken_lines;
   };
 } // namespace perideal
 

@@ -124,49 +124,10 @@ namespace perideal
     ComparisonParameters comparison;
     ArealForceParameters areal_forces;
     GaugeParameters      gauges;
-
-    /// Declares all parameters, reads the values and checks their ranges.
-    /// The blocks are bound to @p prm: this object must stay where it is.
-    /// @throws InputError naming file, line and parameter.
-    void read(const ParameterFile &file, dealii::ParameterHandler &prm);
+    /// What the table of rules warns of, one line each.
+    std::vector<std::string> warnings;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
-
-    /// Replaces "automatic" by what it means for this scene.
-    /// @throws InputError on choices that do not go together.
-    void resolve();
-
-    /// Puts what Treatment means in the place of "automatic".
-    /// @throws InputError for the consistent form.
-    void resolve_treatment();
-    /// @throws InputError on what does not go with nodes on the surface, or with transfer functions.
-    void check_surface_nodes() const;
-    void check_transfer() const;
-    /// @throws InputError on what does not go with Taylor ghosts.
-    void check_ghosts() const;
-
-    /// @throws InputError on a failure by stress of bonds that break by stretch, and on one by stretch of
-    /// those that break by stress.
-    void check_failure() const;
-
-    /// @throws InputError on what does not go with Gauss points, or with compensation factors.
-    void check_quadrature() const;
-    /// Chooses the treatment of tractions.
-    /// @throws InputError on those that do not go with the model or the solver.
-    void resolve_tractions();
-
-    /// @throws InputError on what does not go with the correspondence model.
-    void check_correspondence() const;
-
-    /// @throws InputError on what does not go with dynamics, with dynamic relaxation, or with statics.
-    void check_dynamics() const;
-    void check_nonlinear_statics() const;
-    void check_statics() const;
-    /// @throws InputError on prescribed or initial velocities.
-    void check_no_motion() const;
-
-    /// @throws InputError on lines where bonds know more than their ends, or are not whole.
-    void check_areal_forces() const;
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;

@@ -27,7 +27,9 @@ namespace
     dealii::ParameterHandler prm;
     MaterialParameters       parameters;
     parameters.declare(prm, file);
-    file.apply(prm);
+    InputErrorCollector errors;
+    file.apply(prm, errors);
+    errors.raise();
     parameters.check(dim);
     return parameters;
   }

@@ -17,7 +17,9 @@ namespace
     dealii::ParameterHandler prm;
     LoadParameters           parameters;
     parameters.declare(prm, file);
-    file.apply(prm);
+    InputErrorCollector errors;
+    file.apply(prm, errors);
+    errors.raise();
     return Loads<2>(parameters);
   }
 
@@ -27,7 +29,9 @@ namespace
     dealii::ParameterHandler prm;
     MaterialParameters       parameters;
     parameters.declare(prm, file);
-    file.apply(prm);
+    InputErrorCollector errors;
+    file.apply(prm, errors);
+    errors.raise();
     parameters.check(2);
     return parameters;
   }

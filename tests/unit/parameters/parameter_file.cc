@@ -44,7 +44,9 @@ namespace
     dealii::ParameterHandler prm;
     Values                   values;
     values.declare(prm);
-    file.apply(prm);
+    InputErrorCollector errors;
+    file.apply(prm, errors);
+    errors.raise();
     return values;
   }
 } // namespace
@@ -79,6 +81,9 @@ TEST(ParameterFile, MessagesNameFileLineAndChoices)
                      {"bar.prm:2", "Bar/Kind", "stele", "wood | steel | stone", "did you mean: steel"});
   expect_input_error([] { read("set Length = 11\n"); }, {"bar.prm:1", "Length", "11", "0", "10"});
   expect_input_error([] { read("set Length = long\n"); }, {"bar.prm:1", "Length", "long"});
+  // Far from any name.
+  expect_input_error([] { read("set Zzzzzzzzzzzzzz = 1\nsubsection Qqqqqqqqqqqqq\nset X = 1\nend\n"); },
+                     {"2 mistakes", "bar.prm:1", "Zzzzzzzzzzzzzz", "bar.prm:3", "Qqqqqqqqqqqqq"});
   expect_input_error([] { read(scene, {"Bar/Knd=wood"}); }, {"--set", "Knd", "Kind"});
 }
 

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/read_scene.h>
+#include <perideal/application/rules.h>
+#include <perideal/base/registry.h>
+#include <perideal/parameters/declarations.h>
+#include <perideal/problem/output_fields.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    bool starts_with(const std::string &text, const std::string &start)
+    {
+      return text.compare(0, start.size(), start) == 0;
+    }
+
+    /// Whether a mistake in a parameter, or in a section, follows from what could not be read.
+    bool follows_from(const std::string &path, const std::vector<std::string> &not_read)
+    {
+      return !path.empty() && std::any_of(not_read.begin(), not_read.end(), [&](const std::string &other) {
+        return starts_with(path, other) || starts_with(other, path + "/");
+      });
+    }
+
+    /// Whether the mistake in a value of a named material is that of the whole body, from which it has the
+    /// value.
+    bool is_inherited(const std::string &path, const ParameterFile &file, const InputErrorCollector &mistakes)
+    {
+      const std::size_t first = path.find('/'), last = path.rfind('/');
+      if (first == last || file.gives(path))
+        return false;
+      const std::string of_body = path.substr(0, first) + path.substr(last);
+      return std::any_of(mistakes.list().begin(), mistakes.list().end(), [&](const InputError &error) {
+        return error.parameter() == of_body;
+      });
+    }
+
+    /// Parameters with only one of a list of conditions, loads or the like.
+    template <typename Parameters, typename Text>
+    Parameters only(std::vector<Text> Parameters::*list, const Text &text)
+    {
+      Parameters result;
+      (result.*list).push_back(text);
+      return result;
+    }
+
+    /// Reads formulas of the components that a scene has.
+    template <int dim>
+    void read_formulas(const std::array<std::string, 3> &formulas,
+                       const std::string                &prefix,
+                       InputErrorCollector              &mistakes)
+    {
+      const char *const axes[] = {"x", "y", "z"};
+      for (int d = 0; d < dim; ++d)
+        mistakes.collect([&] { SpaceTimeFunction<dim>(formulas[d], prefix + axes[d]); });
+    }
+
+    /// Reads texts that are formulas or points, to find those that are not.
+    template <int dim>
+    void read_texts(const SceneParameters &scene, InputErrorCollector &mistakes)
+    {
+      for (const auto &text : scene.loads.conditions)
+        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::conditions, text)); });
+      for (const auto &text : scene.loads.point_loads)
+        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::point_loads, text)); });
+      LoadParameters body;
+      body.body_force = scene.loads.body_force;
+      mistakes.collect([&] { Loads<dim>{body}; });
+      read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", mistakes);
+      read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", mistakes);
+      for (const auto &text : scene.gauges.gauges)
+        mistakes.collect([&] { read_gauges<dim>(only(&GaugeParameters::gauges, text)); });
+      for (const auto &text : scene.areal_forces.points)
+        mistakes.collect([&] { read_areal_force_points<dim>(only(&ArealForceParameters::points, text)); });
+    }
+
+    void check_fields(const SceneParameters &scene, InputErrorCollector &mistakes)
+    {
+      const auto known = output_field_names();
+      for (const std::string &field : scene.field_names())
+        if (std::find(known.begin(), known.end(), field) == known.end())
+          mistakes.add(InputError("unknown field")
+                         .parameter("Output/Fields")
+                         .given(field)
+                         .allowed(join_choices(known))
+                         .nearest(nearest_name(field, known)));
+    }
+
+    /// Looks at each section by itself.
+    void check_values(const SceneParameters &scene, InputErrorCollector &mistakes)
+    {
+      mistakes.collect([&] { scene.mesh.check(); });
+      mistakes.collect([&] { scene.nodes.check(); });
+      mistakes.collect([&] { scene.quadrature.check(); });
+      mistakes.collect([&] { scene.material.check(scene.dimension); });
+      mistakes.collect([&] { scene.solver.check(); });
+      mistakes.collect([&] { scene.cracks.check(); });
+      mistakes.collect([&] { scene.contact.check(); });
+      if (scene.dimension == 2)
+        read_texts<2>(scene, mistakes);
+      else
+        read_texts<3>(scene, mistakes);
+      check_fields(scene, mistakes);
+    }
+
+    /// What a treatment means for displacements and tractions.
+    void resolve_treatments(LoadParameters &loads, const bool is_consistent)
+    {
+      using Displacement = DisplacementTreatment;
+      using Traction     = TractionTreatment;
+      // The consistent form has treatments of its own.
+      const Treatment treatment = is_consistent ? Treatment::automatic : loads.treatment;
+      const auto      choose    = [&](const Displacement displacement, const Traction traction) {
+        if (loads.traction_treatment == Traction::automatic)
+          loads.traction_treatment = traction;
+        if (loads.displacement_treatment == Displacement::automatic)
+          loads.displacement_treatment = displacement;
+      };
+      switch (treatment)
+        {
+        case Treatment::layer:
+          return choose(Displacement::layer, Traction::layer);
+        case Treatment::published:
+          return choose(Displacement::surface_nodes, Traction::published_transfer);
+        case Treatment::balanced:
+          return choose(Displacement::surface_nodes, Traction::transfer);
+        case Treatment::taylor_ghosts:
+          return choose(Displacement::taylor_ghosts, Traction::taylor_ghosts);
+        case Treatment::automatic:
+          if (is_consistent)
+            choose(Displacement::face_value, Traction::face_value);
+          else
+            choose(loads.has_taylor_extension() ? Displacement::taylor_ghosts : Displacement::layer,
+                   Traction::layer);
+        }
+    }
+  } // namespace
+
+  void resolve(SceneParameters &scene)
+  {
+    using Use         = ModelParameters::Use;
+    const bool breaks = scene.material.has_criterion() || !scene.precracks.cracks.empty();
+    scene.model.resolve(scene.dimension,
+                        breaks                          ? Use::failure :
+                        scene.solver.is_linear_static() ? Use::statics :
+                                                          Use::motion);
+    resolve_treatments(scene.loads, scene.model.is_consistent());
+    // The consistent form leaves the choice to the mesh.
+    if (scene.nodes.horizon_shape == HorizonShape::automatic && !scene.model.is_consistent())
+      scene.nodes.horizon_shape = HorizonShape::sphere;
+  }
+
+  void read_scene(const ParameterFile &file, dealii::ParameterHandler &prm, SceneParameters &scene)
+  {
+    scene.declare(prm, file);
+    InputErrorCollector errors, mistakes;
+    const auto          not_read = file.apply(prm, errors);
+    check_values(scene, mistakes);
+    resolve(scene);
+    scene.warnings = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
+    for (const InputError &mistake : mistakes.list())
+      if (!follows_from(mistake.parameter(), not_read) && !is_inherited(mistake.parameter(), file, mistakes))
+        errors.add(file.locate(mistake));
+    errors.raise();
+  }
+} // namespace perideal

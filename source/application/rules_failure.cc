@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/rules.h>
+
+// Rules of what breaks, is cut or is followed.
+
+namespace perideal
+{
+  namespace
+  {
+    using Scene = SceneParameters;
+
+    std::vector<std::string> stretches_of_bonds_that_break_by_stress(const Scene &scene)
+    {
+      std::vector<std::string> result;
+      const auto               check = [&](const MaterialProperties &properties, const std::string &section) {
+        if (scene.model.is_correspondence() && properties.fracture_energy > 0)
+          result.push_back(section + "/Fracture energy");
+        else if (scene.model.is_correspondence() && properties.critical_stretch > 0)
+          result.push_back(section + "/Critical stretch");
+      };
+      check(scene.material.body, "Material");
+      for (const auto &group : scene.material.groups)
+        check(group.second, "Material/" + group.first);
+      return result;
+    }
+
+    /// Paths of named subsections, in linear statics.
+    template <typename Named>
+    std::vector<std::string>
+    in_statics(const Scene &scene, const std::string &section, const std::vector<Named> &named)
+    {
+      std::vector<std::string> result;
+      if (scene.solver.is_linear_static())
+        for (const Named &subsection : named)
+          result.push_back(section + "/" + subsection.name);
+      return result;
+    }
+
+    Rule of_motion(const std::string &parameter, const Rule::Breaches &breaches)
+    {
+      return refuse_each(parameter,
+                         "Solver/Name = static",
+                         breaches,
+                         "this belongs to dynamics, quasi static and dynamic relaxation",
+                         "",
+                         "set Solver/Name = dynamics, or = quasi static");
+    }
+  } // namespace
+
+  std::vector<Rule> failure_rules()
+  {
+    return {
+      refuse(
+        "Material/Failure criterion",
+        "Material/Model other than correspondence",
+        [](const Scene &s) { return s.material.has_criterion() && !s.model.is_correspondence(); },
+        "the bonds of this model break by stretch",
+        "none for Material/Model = ...",
+        "set Material/Fracture energy or Critical stretch"),
+      refuse_each("Material/NAME/Fracture energy, Critical stretch",
+                  "Material/Model = correspondence",
+                  stretches_of_bonds_that_break_by_stress,
+                  "the bonds of this model break by stress",
+                  "0 for Material/Model = correspondence",
+                  "set Material/Failure criterion and Tensile strength"),
+      refuse(
+        "Material/Form",
+        "Material/Model = correspondence, Material/Form = consistent, with Material/Failure criterion or "
+        "Precracks/",
+        [](const Scene &s) {
+          return s.model.is_correspondence() && s.model.is_consistent() &&
+                 (s.material.has_criterion() || !s.precracks.cracks.empty());
+        },
+        "the consistent form takes gradients from faces, which no crack cuts",
+        "automatic | family with Failure criterion or Precracks"),
+      refuse_each(
+        "Cracks/NAME/Branch length",
+        "Dimension = 3",
+        [](const Scene &s) {
+          std::vector<std::string> result;
+          for (const CrackText &crack : s.cracks.cracks)
+            if (s.dimension == 3 && crack.branch_length > 0)
+              result.push_back("Cracks/" + crack.name + "/Branch length");
+          return result;
+        },
+        "branches are looked for in two dimensions",
+        "0 in 3-D"),
+      of_motion("Precracks/NAME",
+                [](const Scene &s) { return in_statics(s, "Precracks", s.precracks.cracks); }),
+      of_motion("Cracks/NAME", [](const Scene &s) { return in_statics(s, "Cracks", s.cracks.cracks); }),
+      of_motion("No-fail zones/NAME",
+                [](const Scene &s) { return in_statics(s, "No-fail zones", s.no_fail.zones); }),
+    };
+  }
+} // namespace perideal

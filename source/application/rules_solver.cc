@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/rules.h>
+
+// Rules of solvers: what is moved, kept or damped.
+
+namespace perideal
+{
+  namespace
+  {
+    using Scene = SceneParameters;
+
+    const char *const axes[] = {"x", "y", "z"};
+
+    std::vector<std::string> velocities_of_conditions(const Scene &scene)
+    {
+      std::vector<std::string> result;
+      if (!scene.solver.is_dynamic())
+        for (const auto &condition : scene.loads.conditions)
+          for (unsigned int d = 0; d < 3; ++d)
+            if (!condition.velocity[d].empty())
+              result.push_back("Boundary conditions/" + condition.name + "/v_" + axes[d]);
+      return result;
+    }
+
+    std::vector<std::string> initial_velocities(const Scene &scene)
+    {
+      std::vector<std::string> result;
+      if (!scene.solver.is_dynamic())
+        for (unsigned int d = 0; d < 3; ++d)
+          if (!scene.initial.velocity[d].empty())
+            result.push_back(std::string("Initial conditions/v_") + axes[d]);
+      return result;
+    }
+
+    /// Whether the linear system of a scene is known not to be symmetric.
+    bool is_unsymmetric(const Scene &scene)
+    {
+      return !scene.model.form_traits().follows_from_energy || scene.quadrature.has_gauss_points() ||
+             scene.loads.has_taylor_extension();
+    }
+
+    Rule of_dynamics(const std::string &parameter, const Rule::Breaches &breaches)
+    {
+      return refuse_each(parameter,
+                         "Solver/Name other than dynamics",
+                         breaches,
+                         "this belongs to dynamics",
+                         "",
+                         "set Solver/Name = dynamics");
+    }
+
+    Rule of_steps(const std::string &parameter, const Condition is_broken)
+    {
+      return refuse(parameter,
+                    "Solver/Name = static",
+                    is_broken,
+                    "this belongs to dynamics, quasi static and dynamic relaxation",
+                    "",
+                    "set Solver/Name = dynamics, or = quasi static");
+    }
+  } // namespace
+
+  bool solves_equations(const SceneParameters &scene)
+  {
+    return scene.solver.is_linear_static() || scene.solver.is_quasi_static();
+  }
+
+  bool takes_auxiliary_space(const SceneParameters &scene)
+  {
+    return solves_equations(scene) && !scene.solver.assembles() &&
+           (scene.solver.preconditioner == PreconditionerName::automatic ||
+            scene.solver.preconditioner == PreconditionerName::auxiliary);
+  }
+
+  std::vector<Rule> solver_rules()
+  {
+    return {
+      refuse(
+        "Solver/Linear solver",
+        "Solver/Linear solver = cg | trilinos cg, with Material/Form = paper, Quadrature/Scheme = gauss "
+        "points or Boundary conditions/Traction treatment = taylor ghosts",
+        [](const Scene &s) {
+          return solves_equations(s) && is_unsymmetric(s) &&
+                 (s.solver.linear_solver == LinearSolverName::cg ||
+                  s.solver.linear_solver == LinearSolverName::trilinos_cg);
+        },
+        "the operator of this scene is not symmetric",
+        "automatic | gmres | trilinos gmres | direct"),
+      refuse(
+        "Solver/Auxiliary mesh",
+        "Solver/Auxiliary mesh = parent, Mesh/Refinements = 0, Mesh/Refine times = 0",
+        [](const Scene &s) {
+          return takes_auxiliary_space(s) && s.solver.auxiliary_mesh == AuxiliaryMesh::parent &&
+                 s.mesh.refinements == 0 && s.mesh.refine_times == 0;
+        },
+        "no cell of this mesh has a parent: it was not refined",
+        "automatic | same for this mesh",
+        "halve Mesh/Cells and set Mesh/Refinements = 1"),
+      refuse(
+        "Initial conditions/v_z",
+        "Dimension = 2",
+        [](const Scene &s) { return s.dimension == 2 && !s.initial.velocity[2].empty(); },
+        "a two-dimensional scene has no z component",
+        "none in 2-D"),
+      of_dynamics("Boundary conditions/NAME/v_x, v_y, v_z", velocities_of_conditions),
+      of_dynamics("Initial conditions/v_x, v_y, v_z", initial_velocities),
+      of_steps("Checkpoints/Steps",
+               [](const Scene &s) { return s.checkpoints.steps > 0 && s.solver.is_linear_static(); }),
+      of_steps("Checkpoints/Restart",
+               [](const Scene &s) { return s.checkpoints.restart && s.solver.is_linear_static(); }),
+      of_steps("Contact/Enabled",
+               [](const Scene &s) {
+                 return s.contact.enabled == ContactChoice::yes && s.solver.is_linear_static();
+               }),
+      of_steps("Solver/Relative damping",
+               [](const Scene &s) { return s.solver.relative_damping > 0 && s.solver.is_linear_static(); }),
+    };
+  }
+} // namespace perideal

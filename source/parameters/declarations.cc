@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/registry.h>
+#include <perideal/parameters/declarations.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+#include <sstream>
+
+namespace perideal
+{
+  Declarations declarations(const dealii::ParameterHandler &prm, const bool in_order)
+  {
+    using Handler = dealii::ParameterHandler;
+    std::stringstream json;
+    prm.print_parameters(json, in_order ? Handler::JSON | Handler::KeepDeclarationOrder : Handler::JSON);
+    Declarations tree;
+    boost::property_tree::read_json(json, tree);
+    return tree;
+  }
+
+  bool is_parameter(const Declarations &entry)
+  {
+    return entry.find("pattern_description") != entry.not_found();
+  }
+
+  std::vector<std::string> declared_names(const Declarations &section, const bool parameters)
+  {
+    std::vector<std::string> result;
+    for (const auto &child : section)
+      if (is_parameter(child.second) == parameters)
+        result.push_back(child.first);
+    return result;
+  }
+
+  std::vector<std::string> selection_of(const std::string &pattern)
+  {
+    const std::string start = "[Selection ";
+    if (pattern.rfind(start, 0) != 0)
+      return {};
+    return dealii::Utilities::split_string_list(
+      pattern.substr(start.size(), pattern.rfind(']') - start.size()), '|');
+  }
+
+  std::string describe_pattern(const std::string &pattern)
+  {
+    const auto choices = selection_of(pattern);
+    if (!choices.empty())
+      return join_choices(choices);
+    return dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
+  }
+
+  namespace
+  {
+    /// Whether two values are the same text, or the same number.
+    bool are_equal(const std::string &a, const std::string &b)
+    {
+      const dealii::Patterns::Double number;
+      return a == b || (number.match(a) && number.match(b) && std::stod(a) == std::stod(b));
+    }
+
+    void list_changed(const Declarations &section, const std::string &above, std::vector<std::string> &result)
+    {
+      for (const auto &[name, entry] : section)
+        if (!is_parameter(entry))
+          list_changed(entry, above + name + "/", result);
+        else if (!are_equal(entry.get<std::string>("value"), entry.get<std::string>("default_value")))
+          result.push_back(above + name);
+    }
+  } // namespace
+
+  std::vector<std::string> changed_parameters(const dealii::ParameterHandler &prm)
+  {
+    std::vector<std::string> result;
+    list_changed(declarations(prm), "", result);
+    return result;
+  }
+} // namespace perideal
