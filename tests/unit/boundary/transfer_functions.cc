@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/boundary/balanced_transfer.h>
 #include <perideal/boundary/face_tractions.h>
 #include <perideal/boundary/published_transfer.h>
 #include <perideal/mesh/create_mesh.h>
+#include <perideal/treatments/treatments.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -40,7 +40,8 @@ namespace
   struct Scene
   {
     explicit Scene(const Mesh<dim> &mesh)
-      : nodes(mesh, NodeParameters{3.01})
+      : mesh(mesh)
+      , nodes(mesh, NodeParameters{3.01})
       , faces(find_boundary_faces(mesh, nodes))
       , functions(nodes, gather_faces(faces, MPI_COMM_WORLD))
     {
@@ -49,10 +50,9 @@ namespace
       press.name = "press";
       for (const auto id : mesh.boundary_ids)
         pull.boundary += (pull.boundary.empty() ? "" : ", ") + std::to_string(id);
-      press.boundary = pull.boundary;
-      pull.traction  = {{"2-3*x+y", "1+5*x-2*y", dim == 3 ? "4-z+x" : ""}};
-      press.pressure = "1+x+2*y";
-      LoadParameters text;
+      press.boundary  = pull.boundary;
+      pull.traction   = {{"2-3*x+y", "1+5*x-2*y", dim == 3 ? "4-z+x" : ""}};
+      press.pressure  = "1+x+2*y";
       text.conditions = {pull, press};
       loads           = resolve_boundaries(mesh, Loads<dim>(text));
     }
@@ -93,10 +93,18 @@ namespace
       return {sum(result.force), sum(result.moment)};
     }
 
+    std::unique_ptr<Tractions<dim>> transfer()
+    {
+      return load_by_transfer<dim>({mesh, nodes, faces, loads, text, timings}, {});
+    }
+
+    const Mesh<dim>               &mesh;
     Nodes<dim>                     nodes;
     std::vector<BoundaryFace<dim>> faces;
     TransferFunctions<dim>         functions;
+    LoadParameters                 text;
     Loads<dim>                     loads;
+    Timings                        timings{MPI_COMM_WORLD};
   };
 
   /// (2.3), (2.4) and (2.5), relative to the sizes of the terms.
@@ -139,9 +147,9 @@ namespace
   {
     for (const auto &mesh : make_bodies<dim>())
       {
-        const Scene<dim> scene(*mesh);
-        const auto       applied = scene.of_faces();
-        const auto       nodal   = scene.of_nodes(scene.forces_of(BalancedTransfer<dim>(scene.functions)));
+        Scene<dim> scene(*mesh);
+        const auto applied = scene.of_faces();
+        const auto nodal   = scene.of_nodes(scene.forces_of(*scene.transfer()));
         EXPECT_LE((nodal.force - applied.force).norm(), 1e-12 * applied.force.norm());
         EXPECT_LE((nodal.moment - applied.moment).norm(), 1e-12 * applied.moment.norm());
       }
@@ -200,7 +208,7 @@ TEST(BalancedTransfer, IsTheTransferFunctionOnStraightSides)
 {
   const auto            mesh = test::make_box<2>({12, 20}, {1.2, 2.}, 0.);
   const Nodes<2>        nodes(*mesh, NodeParameters{2.01});
-  const auto            faces = gather_faces(find_boundary_faces(*mesh, nodes), MPI_COMM_WORLD);
+  const auto            faces = find_boundary_faces(*mesh, nodes);
   BoundaryConditionText pull;
   pull.name     = "pull";
   pull.boundary = "1";
@@ -210,19 +218,21 @@ TEST(BalancedTransfer, IsTheTransferFunctionOnStraightSides)
   const Loads<2>   loads = resolve_boundaries(*mesh, Loads<2>(text));
   dealii::IndexSet owned(2 * nodes.n_global);
   owned.add_range(2 * nodes.first_global, 2 * (nodes.first_global + nodes.size()));
-  NodalVector balanced(owned, MPI_COMM_WORLD), printed(owned, MPI_COMM_WORLD);
-  BalancedTransfer<2>(TransferFunctions<2>(nodes, faces)).add_tractions(loads, 1., balanced);
-  PublishedTransfer<2>(TransferFunctions<2>(nodes, faces), loads, 3.59, 0.).add_tractions(loads, 1., printed);
+  NodalVector balanced(owned, MPI_COMM_WORLD), published(owned, MPI_COMM_WORLD);
+  Timings     timings(MPI_COMM_WORLD);
+  load_by_transfer<2>({*mesh, nodes, faces, loads, text, timings}, {})->add_tractions(loads, 1., balanced);
+  PublishedTransfer<2>(TransferFunctions<2>(nodes, gather_faces(faces, MPI_COMM_WORLD)), loads, 3.59, 0.)
+    .add_tractions(loads, 1., published);
   for (LocalIndex i = 0; i < nodes.size(); ++i)
     if (std::abs(nodes.position[i][1] - 1.) < 0.5)
       {
         // Round-off of forces of 0.1.
-        EXPECT_NEAR(balanced.local_element(2 * i), printed.local_element(2 * i) * 2.59 / 3.59, 1e-14);
+        EXPECT_NEAR(balanced.local_element(2 * i), published.local_element(2 * i) * 2.59 / 3.59, 1e-14);
         EXPECT_NEAR(balanced.local_element(2 * i + 1), 0., 1e-14);
       }
 }
 
-/// The printed factor multiplies the force.
+/// The published factor multiplies the force.
 TEST(PublishedTransfer, MultipliesTheForce)
 {
   const auto     mesh = test::make_box<3>({5, 5, 4}, {1., 1., 0.8}, 0.25);
@@ -234,7 +244,7 @@ TEST(PublishedTransfer, MultipliesTheForce)
 }
 
 /// What L does to the nodes against (2.17), sum by sum over dense matrices.
-TEST(PublishedTransfer, HasTheSumsOfLAsPrinted)
+TEST(PublishedTransfer, HasTheSumsOfLAsPublished)
 {
   const auto            mesh = test::make_box<2>({6, 5}, {1., 0.9}, 0.2);
   const Nodes<2>        nodes(*mesh, NodeParameters{3.01});
