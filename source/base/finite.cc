@@ -15,6 +15,19 @@ namespace perideal
     return value;
   }
 
+  nlohmann::ordered_json number_or_null(const double value)
+  {
+    return is_finite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  }
+
+  nlohmann::ordered_json numbers_or_null(const std::vector<double> &values)
+  {
+    auto result = nlohmann::ordered_json::array();
+    for (const double value : values)
+      result.push_back(number_or_null(value));
+    return result;
+  }
+
   std::vector<std::string> non_finite_paths(const nlohmann::ordered_json &tree)
   {
     std::vector<std::string> result;

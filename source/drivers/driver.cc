@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/base/rendezvous.h>
 #include <perideal/drivers/driver.h>
 #include <perideal/operators/system/stable_time_step.h>
 #include <perideal/output/files.h>
@@ -17,6 +18,7 @@ namespace perideal
     : problem(problem)
     , kind(kind)
   {
+    problem.lasting.add_value("largest energy", largest_energy);
   }
 
   template <int dim>
@@ -35,24 +37,13 @@ namespace perideal
     try
       {
         // Dynamics have moved on to their step, load steps have recorded theirs.
-        recorders->open(
-          resumed ? resumed->header.at("step").template get<double>() + (kind.has_motion ? -0.5 : 0.5) : -1.);
+        recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
+                        resumed.get());
         reached_end = advance();
       }
-    catch (const InputError &)
+    catch (const std::exception &)
       {
         finish_after_error();
-        throw;
-      }
-    catch (const ComputationError &)
-      {
-        finish_after_error();
-        throw;
-      }
-    catch (...)
-      {
-        // Perhaps on this rank alone: nothing collective may follow.
-        recorders->abandon();
         throw;
       }
     finish(reached_end ? RunStatus::done : RunStatus::stopped);
@@ -88,12 +79,17 @@ namespace perideal
   {
     try
       {
-        finish(RunStatus::failed);
+        if (all_ranks_arrive(problem.run.communicator))
+          {
+            finish(RunStatus::failed);
+            return;
+          }
       }
     catch (const std::exception &)
       {
-        recorders->abandon();
+        // The first error is told.
       }
+    recorders->abandon();
   }
 
   template <int dim>

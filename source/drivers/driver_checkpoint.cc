@@ -48,7 +48,6 @@ namespace perideal
     {
       const Families<dim> &families = *problem.discretisation.families;
       CheckpointNodes      result{cell_keys(*problem.body.mesh, *problem.body.nodes),
-                             {},
                              families.n_owned(),
                              problem.loading.supports->unknowns().n_global,
                              families.communicator};
@@ -67,33 +66,20 @@ namespace perideal
           halves.local_element(2 * i + 1) = static_cast<double>(result.key[i] & 0xffffffffu);
         }
       halves.update_ghost_values();
-      for (LocalIndex i = 0; i < families.n_local(); ++i)
-        {
-          result.number.push_back(families.global_number(i));
-          if (i >= families.n_owned())
-            result.key.push_back((static_cast<std::uint64_t>(halves.local_element(2 * i)) << 32) |
-                                 static_cast<std::uint64_t>(halves.local_element(2 * i + 1)));
-        }
+      for (LocalIndex i = families.n_owned(); i < families.n_local(); ++i)
+        result.key.push_back((static_cast<std::uint64_t>(halves.local_element(2 * i)) << 32) |
+                             static_cast<std::uint64_t>(halves.local_element(2 * i + 1)));
       return result;
     }
   } // namespace
 
   template <int dim>
-  Checkpoint Driver<dim>::start_checkpoint(const std::uint64_t step, const double time) const
+  void Driver<dim>::save_checkpoint(const std::uint64_t step, const double time) const
   {
-    Checkpoint result;
-    result.header = {{"step", step},
-                     {"time", time},
-                     {"largest energy", largest_energy},
-                     {"parameters", problem.run.context.parameters}};
-    recorders->save(result);
-    result.broken = problem.force->broken_bonds();
-    return result;
-  }
-
-  template <int dim>
-  void Driver<dim>::write(Checkpoint &checkpoint) const
-  {
+    const Timings::Scope scope(problem.run.timings, "output");
+    Checkpoint           checkpoint;
+    checkpoint.header = {{"step", step}, {"time", time}, {"parameters", problem.run.context.parameters}};
+    problem.lasting.save(checkpoint);
     write_checkpoint(problem.parameters.output_directory, checkpoint, checkpoint_nodes(problem));
   }
 
@@ -103,22 +89,21 @@ namespace perideal
     const SceneParameters &parameters = problem.parameters;
     resumed =
       std::make_unique<Checkpoint>(read_checkpoint(parameters.output_directory, checkpoint_nodes(problem)));
-    compare_scenes(resumed->header.at("parameters"), problem.run.context.parameters);
-    const double time = resumed->header.at("time").template get<double>();
+    compare_scenes(resumed->get<Json>("parameters"), problem.run.context.parameters);
+    const double time = resumed->get<double>("time");
     if (kind.has_motion && !(time < parameters.solver.end_time))
       throw InputError("the checkpoint is at the end already")
         .parameter("Solver/End time")
         .allowed("more than " + short_number(time) + " s");
     problem.run.screen << "restart     from " << (kind.has_motion ? "step " : "load step ")
-                       << resumed->header.at("step").template get<std::uint64_t>()
-                       << ", t = " << short_number(time) << (kind.has_motion ? " s" : "") << std::endl;
+                       << resumed->get<std::uint64_t>("step") << ", t = " << short_number(time)
+                       << (kind.has_motion ? " s" : "") << std::endl;
   }
 
   template <int dim>
-  void Driver<dim>::resume_records()
+  void Driver<dim>::resume_checkpoint()
   {
-    largest_energy = resumed->header.at("largest energy").template get<double>();
-    recorders->resume(*resumed);
+    problem.lasting.resume(*resumed);
     resumed.reset();
   }
 

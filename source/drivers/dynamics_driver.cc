@@ -96,9 +96,8 @@ namespace perideal
         const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
         // A whole number of steps.
         const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
-        time_step =
-          resumed ? resumed->header.at("time step").template get<double>() : solver.end_time / n_wanted;
-        n_steps = std::ceil(solver.end_time / time_step - 1e-6);
+        time_step = resumed ? resumed->template get<double>("time step") : solver.end_time / n_wanted;
+        n_steps   = std::ceil(solver.end_time / time_step - 1e-6);
         if (time_step > stable_step)
           problem.run.warn("the time step " + short_number(time_step) +
                            " s is larger than the largest stable one, " + short_number(stable_step) + " s");
@@ -176,8 +175,9 @@ namespace perideal
                                           {"time_step", time_step},
                                           {"stable_time_step", stable_step}};
         make_dynamics();
+        register_state();
         if (resumed)
-          resume();
+          this->resume_checkpoint();
         apply_forces();
         const bool        loads_change = problem.loading.loads.forces_depend_on_time();
         const auto        interval     = problem.parameters.checkpoints.steps;
@@ -276,37 +276,21 @@ namespace perideal
             }
       }
 
+      void register_state()
+      {
+        LastingState &state = problem.lasting;
+        state.add_value("time step", time_step);
+        dynamics->register_state(state);
+        if (forces.contact)
+          state.add_part("contact", recorders->summary());
+      }
+
       void save()
       {
-        const Timings::Scope scope(problem.run.timings, "output");
-        Checkpoint           checkpoint = this->start_checkpoint(dynamics->step(), dynamics->time());
-        checkpoint.header.update(
-          {{"time step", time_step},
-           {"broken bonds", dynamics->n_broken()},
-           {"dissipated energy", dynamics->dissipated_energy()},
-           {"contact", recorders->summary().value("contact", nlohmann::ordered_json::object())}});
-        checkpoint.put("displacement", dynamics->displacement);
-        checkpoint.put("velocity", dynamics->velocity);
-        checkpoint.shares = dynamics->energy_shares();
-        this->write(checkpoint);
+        this->save_checkpoint(dynamics->step(), dynamics->time());
         // The run that goes on makes its lists anew; this one does so too, for the same order of sums.
         if (forces.contact)
           forces.contact->forget_lists();
-      }
-
-      void resume()
-      {
-        const auto &header = resumed->header;
-        resumed->take("displacement", dynamics->displacement);
-        resumed->take("velocity", dynamics->velocity);
-        dynamics->resume(header.at("step").template get<std::uint64_t>(),
-                         header.at("broken bonds").template get<GlobalIndex>(),
-                         header.at("dissipated energy").template get<double>(),
-                         resumed->shares);
-        problem.force->restore_broken(resumed->broken);
-        if (forces.contact)
-          recorders->summary()["contact"] = header.at("contact");
-        this->resume_records();
       }
 
       const SolverParameters                 &solver;

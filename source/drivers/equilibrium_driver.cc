@@ -169,6 +169,7 @@ namespace perideal
       {
         recorders->summary()["solver"] = solver_report;
         make_path();
+        path->register_state(problem.lasting);
         if (resumed)
           resume();
         const unsigned int interval = problem.parameters.checkpoints.steps;
@@ -179,7 +180,7 @@ namespace perideal
             ++done;
             const bool stops = stop.is_there(problem.run.communicator);
             if (done < solver.load_steps && (stops || (interval > 0 && done % interval == 0)))
-              save();
+              this->save_checkpoint(done, static_cast<double>(done) / solver.load_steps);
             if (stops)
               break;
           }
@@ -269,22 +270,13 @@ namespace perideal
         step.reactions    = problem.loading.supports->reactions(path->reaction(), path->face_reaction());
       }
 
-      void save() const
-      {
-        const Timings::Scope scope(problem.run.timings, "output");
-        Checkpoint checkpoint = this->start_checkpoint(done, static_cast<double>(done) / solver.load_steps);
-        path->save(checkpoint);
-        this->write(checkpoint);
-      }
-
       void resume()
       {
-        done              = resumed->header.at("step").template get<unsigned int>();
-        const double time = resumed->header.at("time").template get<double>();
-        problem.force->restore_broken(resumed->broken);
+        done              = resumed->template get<unsigned int>("step");
+        const double time = resumed->template get<double>("time");
+        this->resume_checkpoint();
         apply_loads(time);
-        path->resume(*resumed, problem.state.external_force, time);
-        this->resume_records();
+        path->resume(problem.state.external_force, time);
       }
 
       const SolverParameters                   &solver;

@@ -4,6 +4,7 @@
 #include <perideal/fracture/crack_branching.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/output/files.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/parameters/named_texts.h>
 #include <perideal/parameters/point_text.h>
 
@@ -133,15 +134,22 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<double> CrackTracker<dim>::state() const
+  void CrackTracker<dim>::register_state(LastingState &state)
   {
-    return when;
+    state.add_node_array(
+      "time of damage",
+      "s",
+      1,
+      [this] { return when; },
+      [this](const std::vector<double> &times) { resume(times); },
+      LastingState::Show::as_field);
   }
 
   template <int dim>
-  void CrackTracker<dim>::resume(const std::vector<double> &state)
+  void CrackTracker<dim>::resume(const std::vector<double> &times)
   {
-    when = state;
+    // Nodes on faces, behind those of the cells, have none.
+    std::copy_n(times.begin(), when.size(), when.begin());
     for (LocalIndex i = 0; i < when.size(); ++i)
       if (when[i] >= 0)
         fresh.push_back({nodes.position[i], when[i], nodes.spacing[i]});

@@ -74,6 +74,17 @@ namespace perideal
          }});
   }
 
+  void LastingState::add_part(const std::string &name, Json &tree)
+  {
+    add_value(
+      name,
+      [name, &tree] { return tree.value(name, Json()); },
+      [name, &tree](const Json &read) {
+        if (!read.is_null())
+          tree[name] = read;
+      });
+  }
+
   void LastingState::add_sum(const std::string &name, double &share)
   {
     add(name,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/finite.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 
@@ -18,9 +20,25 @@ namespace perideal
   {
     // A path or a name of the user's may hold bytes that are no UTF-8; the
     // results of a run are not lost for that.
-    constexpr auto mend = nlohmann::ordered_json::error_handler_t::replace;
+    constexpr auto         mend = nlohmann::ordered_json::error_handler_t::replace;
+    nlohmann::ordered_json written;
+    std::string            not_finite;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      replace_file(path, summary.dump(2, ' ', false, mend) + "\n");
+      {
+        written = summary;
+        for (const std::string &number : non_finite_paths(summary))
+          not_finite += (not_finite.empty() ? "" : ", ") + number;
+        if (summary.value("status", "") != "done")
+          not_finite.clear();
+        if (!not_finite.empty())
+          written["status"] = "failed";
+        replace_file(path, written.dump(2, ' ', false, mend) + "\n");
+      }
+    not_finite = dealii::Utilities::MPI::broadcast(communicator, not_finite, 0);
+    if (!not_finite.empty())
+      throw ComputationError("numbers of the result are not finite: " + not_finite + ", null in '" + path +
+                             "'\n  likely cause: loads or material constants so large or small that numbers "
+                             "overflow");
   }
 
   std::string report_table(const std::vector<std::string>              &header,

@@ -124,6 +124,27 @@ namespace perideal
       output.add_scalar(name, values);
     }
 
+    /// Whatever lasts from step to step and may be shown, number by number.
+    template <int dim>
+    void add_lasting_state(const Problem<dim> &problem, FieldOutput<dim> &output)
+    {
+      const std::size_t n_nodes = problem.body.nodes->size();
+      for (const auto &field : problem.lasting.fields())
+        {
+          const std::vector<double> values = field.get();
+          std::string               name   = field.name;
+          std::replace(name.begin(), name.end(), ' ', '_');
+          // Nodes of the cells come first.
+          for (unsigned int c = 0; c < field.width; ++c)
+            {
+              std::vector<double> component(n_nodes);
+              for (std::size_t i = 0; i < n_nodes; ++i)
+                component[i] = values[field.width * i + c];
+              output.add_scalar(field.width == 1 ? name : name + "_" + std::to_string(c), component);
+            }
+        }
+    }
+
     /// The list of fields: a new one is one line here.
     template <int dim>
     const Registry<Field<dim>> &fields()
@@ -183,6 +204,7 @@ namespace perideal
              add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);
            },
            Source::gradient}},
+         {"state", {[](Scene s, Output o) { add_lasting_state(s, o); }}},
          {"volume", {[](Scene s, Output o) { o.add_scalar("volume", s.body.nodes->volume); }}},
          {"horizon", {[](Scene s, Output o) { o.add_scalar("horizon", s.body.nodes->horizon); }}},
          {"material", {[](Scene s, Output o) {

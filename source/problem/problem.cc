@@ -82,6 +82,7 @@ namespace perideal
   {
     const Timings::Scope scope(run.timings, "setup");
     force = discretisation.create_force();
+    force->register_state(lasting);
   }
 
   template <int dim>

@@ -85,8 +85,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "areal force densities"; }
-
       void record(const Step<dim> &, const Record &record) override
       {
         const bool  by_strain = problem.parameters.model.is_linear_only();

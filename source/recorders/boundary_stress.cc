@@ -93,8 +93,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "boundary stress"; }
-
       void conclude(const Step<dim> &step, const Record &record) override
       {
         const Body<dim>                      &body     = problem.body;

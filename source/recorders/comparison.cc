@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/output/errors.h>
 #include <perideal/output/profiles.h>
 #include <perideal/parameters/point_text.h>
 #include <perideal/problem/finite_elements.h>
 #include <perideal/recorders/make_recorders.h>
+
+#include <cmath>
 
 namespace perideal
 {
@@ -102,8 +105,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "comparison"; }
-
       void prepare_fields(const Step<dim> &step) override
       {
         if (kind.has_motion && parameters.has_exact())
@@ -152,6 +153,18 @@ namespace perideal
         return result;
       }
 
+      /// @throws ComputationError on all ranks when a field is not finite on one. Collective.
+      void check_finite(const std::string &name, const NodalField<dim> &field) const
+      {
+        double sum = 0;
+        for (const auto &u : field)
+          for (int d = 0; d < dim; ++d)
+            sum += std::abs(u[d]);
+        require_finite(dealii::Utilities::MPI::sum(sum, problem.run.communicator),
+                       "the displacement of " + name);
+      }
+
+      /// Errors over a reference that is zero are null.
       Json errors_of(const NodalField<dim> &field, const NodalField<dim> &reference) const
       {
         const char       *components[] = {"u_x", "u_y", "u_z"};
@@ -159,12 +172,12 @@ namespace perideal
         const auto        errors       = field_errors(nodes, field, reference, [&](const LocalIndex i) {
           return problem.loading.supports->held().in_collar(i);
         });
-        Json              result       = {{"l2", errors.l2}, {"max", errors.max}};
+        Json              result       = {{"l2", number_or_null(errors.l2)}, {"max", number_or_null(errors.max)}};
         for (const auto &profile : profiles)
           {
             const auto along = profile_errors(nodes, profile.second->local_nodes(), field, reference);
             for (int d = 0; d < dim; ++d)
-              result["profiles"][profile.first][components[d]] = along[d];
+              result["profiles"][profile.first][components[d]] = number_or_null(along[d]);
           }
         return result;
       }
@@ -173,6 +186,9 @@ namespace perideal
       {
         const auto &solutions = problem.state.comparisons;
         Json        result    = Json::object();
+        check_finite("the body", problem.state.displacement);
+        for (const auto &solution : solutions)
+          check_finite(solution.first, solution.second);
         for (const auto &solution : solutions)
           result[solution.first] = errors_of(problem.state.displacement, solution.second);
         // The finite elements' own error, beside which ours is to be read.

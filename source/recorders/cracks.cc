@@ -22,8 +22,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "cracks"; }
-
       void start(Json &) override { tracker.start(problem.force->cut_share()); }
 
       void observe(const Step<dim> &step, const Record &) override
@@ -69,19 +67,7 @@ namespace perideal
         return text;
       }
 
-      Json save(const Json &, Checkpoint &checkpoint) const override
-      {
-        checkpoint.fields["crack"] = tracker.state();
-        checkpoint.fields["crack"].resize(problem.loading.supports->unknowns().size());
-        return Json::object();
-      }
-
-      void resume(const Json &, const Checkpoint &checkpoint, Json &) override
-      {
-        std::vector<double> state = checkpoint.fields.at("crack");
-        state.resize(problem.body.nodes->size());
-        tracker.resume(state);
-      }
+      void register_state(LastingState &state, Json &) override { tracker.register_state(state); }
 
     private:
       static std::string number(const Json &value)

@@ -24,8 +24,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "damage"; }
-
       void start(Json &summary) override
       {
         if (problem.failure.no_fail_zones)
@@ -89,16 +87,7 @@ namespace perideal
         return text;
       }
 
-      Json save(const Json &summary, Checkpoint &) const override
-      {
-        return summary.value("damage", Json::object());
-      }
-
-      void resume(const Json &state, const Checkpoint &, Json &summary) override
-      {
-        if (!state.empty())
-          summary["damage"] = state;
-      }
+      void register_state(LastingState &state, Json &summary) override { state.add_part("damage", summary); }
 
     private:
       Json fragments() const

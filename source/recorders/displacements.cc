@@ -47,8 +47,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "displacements"; }
-
       void record(const Step<dim> &step, const Record &record) override
       {
         const auto &conditions = problem.loading.loads.conditions;

@@ -23,8 +23,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "energy"; }
-
       void record(const Step<dim> &step, const Record &record) override
       {
         const EnergyBudget &energy = step.energy;
@@ -86,16 +84,10 @@ namespace perideal
         return text;
       }
 
-      Json save(const Json &summary, Checkpoint &) const override
+      void register_state(LastingState &state, Json &summary) override
       {
-        return {{"worst", worst}, {"energy", summary.value("energy", Json::object())}};
-      }
-
-      void resume(const Json &state, const Checkpoint &, Json &summary) override
-      {
-        worst = state.at("worst").get<double>();
-        if (!state.at("energy").empty())
-          summary["energy"] = state.at("energy");
+        state.add_value("worst error of energy", worst);
+        state.add_part("energy", summary);
       }
 
     private:

@@ -30,8 +30,6 @@ namespace perideal
                                                  read_gauges<dim>(problem.parameters.gauges));
       }
 
-      std::string name() const override { return "finite elements"; }
-
       void start(Json &summary) override
       {
         const Timings::Scope scope(problem.run.timings, "fem");
@@ -50,6 +48,7 @@ namespace perideal
       void record(const Step<dim> &step, const Record &record) override
       {
         solve(step.time, record.summary);
+        ++n_steps;
         const Timings::Scope scope(problem.run.timings, "fem");
         const double         energy = fem->strain_energy();
         record.history.add("fem: strain energy [J]", energy);
@@ -65,11 +64,16 @@ namespace perideal
       }
 
       /// Finite elements leave no checkpoints: they take their steps again.
-      void resume(const Json &, const Checkpoint &checkpoint, Json &summary) override
+      void register_state(LastingState &state, Json &summary) override
       {
-        const auto number = checkpoint.header.at("step").get<unsigned int>();
-        for (unsigned int k = 1; k <= number; ++k)
-          solve(static_cast<double>(k) / problem.parameters.solver.load_steps, summary);
+        state.add_value(
+          "steps of finite elements",
+          [this] { return Json(n_steps); },
+          [this, &summary](const Json &read) {
+            n_steps = read.get<unsigned int>();
+            for (unsigned int k = 1; k <= n_steps; ++k)
+              solve(static_cast<double>(k) / problem.parameters.solver.load_steps, summary);
+          });
       }
 
     private:
@@ -121,6 +125,7 @@ namespace perideal
 
       Problem<dim>                         &problem;
       std::unique_ptr<Gauges<dim>>          gauges;
+      unsigned int                          n_steps = 0;
       std::unique_ptr<HyperelasticFem<dim>> fem;
     };
   } // namespace

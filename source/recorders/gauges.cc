@@ -24,8 +24,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "gauges"; }
-
       void record(const Step<dim> &, const Record &record) override
       {
         const auto readings = gauges.read(problem.state.unknowns);
@@ -42,13 +40,7 @@ namespace perideal
           }
       }
 
-      Json save(const Json &summary, Checkpoint &) const override { return summary.value("gauges", Json()); }
-
-      void resume(const Json &state, const Checkpoint &, Json &summary) override
-      {
-        if (!state.is_null())
-          summary["gauges"] = state;
-      }
+      void register_state(LastingState &state, Json &summary) override { state.add_part("gauges", summary); }
 
     private:
       const Problem<dim> &problem;

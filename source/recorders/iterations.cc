@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/output/summary.h>
 #include <perideal/recorders/make_recorders.h>
@@ -20,8 +21,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "iterations"; }
-
       void observe(const Step<dim> &step, const Record &record) override
       {
         const EquilibriumStep &search = step.search;
@@ -33,7 +32,7 @@ namespace perideal
         if (kind.has_linear_iterations)
           solver["linear_iterations"].push_back(search.linear_iterations);
         if (kind.has_linear_iterations || !kind.has_iterations)
-          solver["residuals"].push_back(search.residuals);
+          solver["residuals"].push_back(numbers_or_null(search.residuals));
         record.history.add_series("residuals of step " + std::to_string(step.number), search.residuals);
       }
 
@@ -56,18 +55,18 @@ namespace perideal
                short_number(summary.at("energy").at("strain").template get<double>()) + " J\n";
       }
 
-      Json save(const Json &summary, Checkpoint &) const override
+      void register_state(LastingState &state, Json &summary) override
       {
-        Json result;
-        for (const char *list : lists)
-          if (summary.at("solver").contains(list))
-            result[list] = summary.at("solver").at(list);
-        return result;
-      }
-
-      void resume(const Json &state, const Checkpoint &, Json &summary) override
-      {
-        summary["solver"].update(state);
+        state.add_value(
+          "iterations",
+          [&summary] {
+            Json result = Json::object();
+            for (const char *list : lists)
+              if (summary.at("solver").contains(list))
+                result[list] = summary.at("solver").at(list);
+            return result;
+          },
+          [&summary](const Json &read) { summary["solver"].update(read); });
       }
 
     private:

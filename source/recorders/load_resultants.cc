@@ -19,8 +19,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "loads"; }
-
       void conclude(const Step<dim> &step, const Record &record) override
       {
         const State<dim> &state = problem.state;

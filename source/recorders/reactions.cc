@@ -21,8 +21,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "reactions"; }
-
       void record(const Step<dim> &step, const Record &record) override
       {
         const char *axes[]    = {"x", "y", "z"};
@@ -42,15 +40,9 @@ namespace perideal
           record.summary["reactions"] = reactions;
       }
 
-      Json save(const Json &summary, Checkpoint &) const override
+      void register_state(LastingState &state, Json &summary) override
       {
-        return summary.value("largest_reactions", Json());
-      }
-
-      void resume(const Json &state, const Checkpoint &, Json &summary) override
-      {
-        if (!state.is_null())
-          summary["largest_reactions"] = state;
+        state.add_part("largest_reactions", summary);
       }
 
     private:

@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <limits>
+#include <optional>
 
 namespace perideal
 {
@@ -24,17 +25,24 @@ namespace perideal
   }
 
   template <int dim>
-  void Recorders<dim>::open(const double last_row)
+  void Recorders<dim>::open(const double last_row, const Checkpoint *resumed)
   {
-    const SceneParameters &parameters = problem.parameters;
-    const bool             is_series  = kind.has_motion || parameters.solver.load_steps > 1;
-    history = std::make_unique<History>(parameters.output_directory, problem.run.communicator, last_row);
-    fields  = std::make_unique<FieldOutput<dim>>(*problem.body.mesh,
+    const SceneParameters       &parameters = problem.parameters;
+    const bool                   is_series  = kind.has_motion || parameters.solver.load_steps > 1;
+    std::optional<std::uint32_t> checksum;
+    if (resumed != nullptr)
+      checksum = resumed->get<std::uint32_t>("history");
+    history =
+      std::make_unique<History>(parameters.output_directory, problem.run.communicator, last_row, checksum);
+    if (!history->warning().empty())
+      problem.run.warn(history->warning());
+    fields = std::make_unique<FieldOutput<dim>>(*problem.body.mesh,
                                                 *problem.body.nodes,
                                                 parameters.output_directory,
                                                 is_series ? OutputSteps::series : OutputSteps::single);
     for (auto &recorder : recorders)
       recorder->start(result);
+    register_state(problem.lasting);
   }
 
   template <int dim>
@@ -140,15 +148,6 @@ namespace perideal
       }
   }
 
-  template <int dim>
-  void Recorders<dim>::save(Checkpoint &checkpoint) const
-  {
-    checkpoint.header["frames"] = frame_times;
-    checkpoint.header["series"] = history->all_series();
-    for (const auto &recorder : recorders)
-      checkpoint.header["recorders"][recorder->name()] = recorder->save(result, checkpoint);
-  }
-
   namespace
   {
     /// JSON has null for what is no number, as attempts that failed may leave.
@@ -162,15 +161,27 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void Recorders<dim>::resume(const Checkpoint &checkpoint)
+  void Recorders<dim>::register_state(LastingState &state)
   {
-    const Json &header = checkpoint.header;
-    for (auto &recorder : recorders)
-      recorder->resume(header.at("recorders").at(recorder->name()), checkpoint, result);
-    for (const auto &item : header.at("series").items())
-      history->add_series(item.key(), to_numbers(item.value()));
-    frame_times = header.at("frames").get<std::vector<double>>();
-    fields->resume(frame_times);
+    // Recorders::open() asks for it.
+    state.add_value(
+      "history", [this] { return Json(history->checksum()); }, [](const Json &) {});
+    state.add_value(
+      "series",
+      [this] { return Json(history->all_series()); },
+      [this](const Json &read) {
+        for (const auto &item : read.items())
+          history->add_series(item.key(), to_numbers(item.value()));
+      });
+    state.add_value(
+      "frames",
+      [this] { return Json(frame_times); },
+      [this](const Json &read) {
+        frame_times = read.get<std::vector<double>>();
+        fields->resume(frame_times);
+      });
+    for (const auto &recorder : recorders)
+      recorder->register_state(state, result);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Recorders)

@@ -26,8 +26,6 @@ namespace perideal
       {
       }
 
-      std::string name() const override { return "validity"; }
-
       void finish(Json &summary) override
       {
         if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get());

@@ -61,25 +61,20 @@ namespace perideal
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::save(Checkpoint &checkpoint) const
+  void DynamicRelaxation<dim>::register_state(LastingState &state)
   {
-    EquilibriumPath<dim>::save(checkpoint);
-    checkpoint.put("mass", mass);
-    checkpoint.put("increment", this->increment);
-    checkpoint.header["last interval"] = last_interval;
-    checkpoint.header["broke in step"] = this->breaks.in_step;
+    EquilibriumPath<dim>::register_state(state);
+    state.add_node_array("mass", "kg", dim, mass);
+    state.add_node_array("increment", "m", dim, this->increment);
+    state.add_value("last interval", last_interval);
+    state.add_value("broke in step", this->breaks.in_step);
   }
 
   template <int dim>
-  void
-  DynamicRelaxation<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
+  void DynamicRelaxation<dim>::resume(const NodalVector &external, const double time)
   {
-    EquilibriumPath<dim>::resume(checkpoint, external, time);
-    checkpoint.take("mass", mass);
-    checkpoint.take("increment", this->increment);
-    last_time            = time;
-    last_interval        = checkpoint.header.at("last interval").template get<double>();
-    this->breaks.in_step = checkpoint.header.at("broke in step").template get<bool>();
+    EquilibriumPath<dim>::resume(external, time);
+    last_time = time;
   }
 
   template <int dim>

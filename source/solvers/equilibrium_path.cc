@@ -134,27 +134,19 @@ namespace perideal
   }
 
   template <int dim>
-  void EquilibriumPath<dim>::save(Checkpoint &checkpoint) const
+  void EquilibriumPath<dim>::register_state(LastingState &state)
   {
-    checkpoint.put("displacement", displacement);
-    checkpoint.header["broken bonds"] = breaks.total;
-    checkpoint.header["equilibrium"]  = {{"strain", last.energy.strain},
-                                         {"dissipated", last.energy.dissipated},
-                                         {"external", last.energy.external},
-                                         {"largest load", last.largest_load}};
+    state.add_node_array("displacement", "m", dim, displacement);
+    state.add_value("number of broken bonds", breaks.total);
+    state.add_value("strain energy", last.energy.strain);
+    state.add_value("dissipated energy", last.energy.dissipated);
+    state.add_value("external work", last.energy.external);
+    state.add_value("largest load", last.largest_load);
   }
 
   template <int dim>
-  void
-  EquilibriumPath<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
+  void EquilibriumPath<dim>::resume(const NodalVector &external, const double time)
   {
-    const auto &state      = checkpoint.header.at("equilibrium");
-    breaks.total           = checkpoint.header.at("broken bonds").template get<GlobalIndex>();
-    last.energy.strain     = state.at("strain").template get<double>();
-    last.energy.dissipated = state.at("dissipated").template get<double>();
-    last.energy.external   = state.at("external").template get<double>();
-    last.largest_load      = state.at("largest load").template get<double>();
-    checkpoint.take("displacement", displacement);
     if (face_values != nullptr)
       face_values->set_time(loads, time);
     compute_forces();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -89,25 +90,17 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<double> ExplicitDynamics<dim>::energy_shares() const
+  void ExplicitDynamics<dim>::register_state(LastingState &state)
   {
-    return {own.damped, own.external_work, own.next_damped, own.next_external_work};
-  }
-
-  template <int dim>
-  void ExplicitDynamics<dim>::resume(const unsigned int         step,
-                                     const GlobalIndex          n_broken,
-                                     const double               dissipated_energy,
-                                     const std::vector<double> &energy_shares)
-  {
-    AssertDimension(energy_shares.size(), 4);
-    n_steps                = step;
-    breaks.total           = n_broken;
-    breaks.energy          = dissipated_energy;
-    own.damped             = energy_shares[0];
-    own.external_work      = energy_shares[1];
-    own.next_damped        = energy_shares[2];
-    own.next_external_work = energy_shares[3];
+    state.add_node_array("displacement", "m", dim, displacement);
+    state.add_node_array("velocity", "m/s", dim, velocity);
+    state.add_value("number of steps", n_steps);
+    state.add_value("number of broken bonds", breaks.total);
+    state.add_value("dissipated energy", breaks.energy);
+    state.add_sum("damped energy", own.damped);
+    state.add_sum("external work", own.external_work);
+    state.add_sum("damped energy to come", own.next_damped);
+    state.add_sum("external work to come", own.next_external_work);
   }
 
   template <int dim>

@@ -74,29 +74,23 @@ namespace perideal
   }
 
   template <int dim>
-  void NewtonSolver<dim>::save(Checkpoint &checkpoint) const
+  void NewtonSolver<dim>::register_state(LastingState &state)
   {
-    EquilibriumPath<dim>::save(checkpoint);
-    checkpoint.header["floating nodes"] = anchors.n_nodes;
-    checkpoint.header["linear solver"]  = linear.save();
-    if (anchors.n_nodes == 0)
+    EquilibriumPath<dim>::register_state(state);
+    linear.register_state(state);
+    if (!find_floating)
       return;
-    checkpoint.put("spring stiffness", system.anchor_stiffness());
-    checkpoint.put("spring place", anchors.place);
-  }
-
-  template <int dim>
-  void NewtonSolver<dim>::resume(const Checkpoint &checkpoint, const NodalVector &external, const double time)
-  {
-    EquilibriumPath<dim>::resume(checkpoint, external, time);
-    anchors.n_nodes = checkpoint.header.at("floating nodes").template get<GlobalIndex>();
-    linear.resume(checkpoint.header.at("linear solver"));
-    if (anchors.n_nodes == 0)
-      return;
-    std::vector<double> springs(dim * system.n_nodes());
-    checkpoint.take("spring stiffness", springs);
-    checkpoint.take("spring place", anchors.place);
-    system.set_anchors(springs);
+    state.add_value("floating nodes", anchors.n_nodes);
+    state.add_node_array(
+      "spring stiffness",
+      "N/m",
+      dim,
+      [this] { return system.anchor_stiffness(); },
+      [this](const std::vector<double> &springs) {
+        if (anchors.n_nodes > 0)
+          system.set_anchors(springs);
+      });
+    state.add_node_array("spring place", "m", dim, anchors.place);
   }
 
   template <int dim>

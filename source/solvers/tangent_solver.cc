@@ -71,18 +71,12 @@ namespace perideal
   }
 
   template <int dim>
-  nlohmann::ordered_json TangentSolver<dim>::save() const
+  void TangentSolver<dim>::register_state(LastingState &state)
   {
-    return {{"first", is_first}, {"new", is_new}, {"slow", is_slow}, {"cost", cost_when_new}};
-  }
-
-  template <int dim>
-  void TangentSolver<dim>::resume(const nlohmann::ordered_json &state)
-  {
-    is_first      = state.at("first").get<bool>();
-    is_new        = state.at("new").get<bool>();
-    is_slow       = state.at("slow").get<bool>();
-    cost_when_new = state.at("cost").get<double>();
+    state.add_value("linear solver is the first", is_first);
+    state.add_value("linear solver is new", is_new);
+    state.add_value("linear solver is slow", is_slow);
+    state.add_value("linear solver's iterations a digit", cost_when_new);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(TangentSolver)

@@ -29,6 +29,10 @@ namespace perideal
   /// @throws ComputationError when it is not finite.
   double require_finite(const double value, const std::string &what);
 
+  /// What is known to be no number where there is none (NaN or infinite), null in its place.
+  nlohmann::ordered_json number_or_null(const double value);
+  nlohmann::ordered_json numbers_or_null(const std::vector<double> &values);
+
   /// Paths ("/energy/strain") of the numbers of a JSON tree that are not finite.
   std::vector<std::string> non_finite_paths(const nlohmann::ordered_json &tree);
 } // namespace perideal

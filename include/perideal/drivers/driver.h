@@ -66,18 +66,15 @@ namespace perideal
     /// Returns the largest stable step of explicit dynamics [s]. Collective.
     double largest_stable_step() const;
 
-    /// Writes a checkpoint to which a driver's own state has been added. Collective.
-    void write(Checkpoint &checkpoint) const;
-
-    /// Starts a checkpoint with what all runs in steps leave.
-    Checkpoint start_checkpoint(const std::uint64_t step, const double time) const;
+    /// Writes a checkpoint of all that lasts. Collective.
+    void save_checkpoint(const std::uint64_t step, const double time) const;
 
     /// Reads the last checkpoint, where the run is to go on from it, and holds its scene against this one.
     /// Collective. @throws InputError when it belongs to another.
     void open_checkpoint();
 
-    /// Brings the recorders to the state of the checkpoint, which is done with. Collective.
-    void resume_records();
+    /// Brings all that lasts to the state of the checkpoint, which is done with. Collective.
+    void resume_checkpoint();
 
     /// Energies of the present step, the largest so far noted.
     /// @return what is missing over that [-]

@@ -14,6 +14,7 @@
 
 namespace perideal
 {
+  class LastingState;
   class ParameterFile;
 
   /// One subsection of "Cracks", as text.
@@ -63,11 +64,9 @@ namespace perideal
     /// @param damage of owned nodes, by precracks and since
     void update(const double time, const std::vector<double> &damage);
 
-    /// Returns the state of owned nodes: the time of damage, or that they are whole or left out (negative
-    /// numbers).
-    std::vector<double> state() const;
-    /// Continues from the state of an earlier run.
-    void resume(const std::vector<double> &state);
+    /// Registers what it knows of owned nodes: the time of damage, or that they are whole or left out
+    /// (negative numbers).
+    void register_state(LastingState &state);
 
     /// Brings what was noted since the last call to rank 0, where what follows is known. Collective.
     void collect();
@@ -104,6 +103,9 @@ namespace perideal
       dealii::Tensor<1, dim> direction;
       CrackPath<dim>         path;
     };
+
+    /// Goes on with the times of an earlier run. Collective.
+    void resume(const std::vector<double> &times);
 
     static nlohmann::ordered_json describe(const Crack &crack);
     static nlohmann::ordered_json describe_branching(const Crack &crack);

@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -59,23 +58,6 @@ namespace perideal
 
     /// What is thrown where a checkpoint lacks something that the scene needs.
     static InputError lacks(const std::string &name);
-
-    // The same by other names.
-    std::map<std::string, std::vector<double>> fields;
-    std::vector<double>                        shares;
-    std::vector<BondEnds>                      broken;
-
-    /// A field, from and into a vector of as many numbers.
-    template <typename Vector>
-    void put(const std::string &name, const Vector &values)
-    {
-      fields[name].assign(values.begin(), values.end());
-    }
-    template <typename Vector>
-    void take(const std::string &name, Vector &values) const
-    {
-      std::copy(fields.at(name).begin(), fields.at(name).end(), values.begin());
-    }
   };
 
   /// The nodes of this rank: owned ones first, then ghosts.
@@ -83,11 +65,9 @@ namespace perideal
   {
     /// cell_keys() of local nodes.
     std::vector<std::uint64_t> key;
-    /// Global numbers of local nodes.
-    std::vector<GlobalIndex> number;
-    LocalIndex               n_owned;
-    GlobalIndex              n_global;
-    MPI_Comm                 communicator;
+    LocalIndex                 n_owned;
+    GlobalIndex                n_global;
+    MPI_Comm                   communicator;
   };
 
   /**

@@ -3,53 +3,71 @@
 #define perideal_output_checkpoint_file_h
 
 #include <perideal/base/hdf5.h>
-#include <perideal/output/checkpoint.h>
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace perideal
 {
-  /// Writes the tables of a checkpoint and a header with their checksums; returns the header. Collective.
-  std::string
-  write_checkpoint_file(const std::string &path, const Checkpoint &checkpoint, const CheckpointNodes &nodes);
-
-  /// Reads a checkpoint file by one rank. Functions throw hdf5::Unreadable.
+  /**
+   * The file of a checkpoint as one rank reads it. The header, a JSON text, has for each table its unit,
+   * numbers a line, lines and checksums by the rank that wrote them:
+   *
+   *     {"format", "nodes" (of all ranks), "content" (Checkpoint::header), "tables": {NAME: {...}}}
+   */
   class CheckpointFile
   {
   public:
+    using Json = nlohmann::ordered_json;
+
+    /// What files of another layout have another number of.
+    static constexpr unsigned int format = 2;
+
     /// @throws hdf5::Unreadable when the header is not the one of that checksum.
     CheckpointFile(const std::string &path, const std::uint32_t header_checksum);
 
-    /// Compares this rank's share of the tables with their checksums.
+    /// Holds this rank's share of the tables against their checksums. @throws hdf5::Unreadable naming a
+    /// table.
     void verify(const unsigned int rank, const unsigned int n_ranks) const;
 
-    /// Whether as many ranks with the same nodes wrote the file: the answer for this rank.
-    bool is_as_written(const CheckpointNodes &nodes) const;
+    const Json &header() const { return header_tree; }
+    const Json &tables() const { return header_tree.at("tables"); }
 
-    /// Stands for the lines of all ranks.
+    /// Where the lines of each rank that wrote a table begin, and where the last end.
+    std::vector<std::uint64_t> begin_of_ranks(const std::string &table) const;
+
+    /// In the place of a rank: all lines.
     static constexpr unsigned int all = std::numeric_limits<unsigned int>::max();
-
-    /// Returns what belongs to the nodes and bonds of this rank, from the lines that a rank wrote or from
-    /// all; of these the first rank takes the sums.
-    Checkpoint read(const CheckpointNodes &nodes, const unsigned int rank) const;
-
-    const nlohmann::ordered_json &tables() const { return header.at("tables"); }
 
     /// Calls visit(line, values of the line) with the lines that a rank wrote, or with all.
     template <typename Number, typename Visit>
-    void visit_lines(const std::string &name, const unsigned int rank, const Visit &visit) const;
-
-    /// {"nodes": of all ranks, "content": Checkpoint::header, "tables": what their lines are}
-    nlohmann::ordered_json header;
+    void visit_lines(const std::string &table, const unsigned int rank, const Visit &visit) const
+    {
+      const auto          begin   = begin_of_ranks(table);
+      const std::uint64_t at_once = 1 << 20, first = rank == all ? 0 : begin.at(rank);
+      const std::uint64_t last = rank == all ? begin.back() : begin.at(rank + 1);
+      for (std::uint64_t at = first; at < last; at += at_once)
+        {
+          const std::uint64_t n      = std::min(at_once, last - at);
+          const auto          values = file.read<Number>(table, at, n);
+          for (std::uint64_t line = 0; line < n; ++line)
+            visit(at + line, values.data() + line * (values.size() / n));
+        }
+    }
 
   private:
     hdf5::Unreadable damaged(const std::string &table) const;
 
     template <typename Number>
-    void verify(const std::string &name, const unsigned int rank, const unsigned int n_ranks) const;
+    void verify(const std::string &table, const unsigned int rank, const unsigned int n_ranks) const;
 
-    const std::string  path;
-    const hdf5::Reader file;
+    std::string  path;
+    hdf5::Reader file;
+    Json         header_tree;
   };
 } // namespace perideal
 

@@ -83,6 +83,9 @@ namespace perideal
         name, [&value] { return Json(value); }, [&value](const Json &read) { value = read.get<T>(); });
     }
 
+    /// Registers the part of a tree that has this name, as soon as there is one.
+    void add_part(const std::string &name, Json &tree);
+
     /// Registers a number of this rank, the sum of which over the ranks counts.
     void add_sum(const std::string &name, double &share);
 

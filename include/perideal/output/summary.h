@@ -14,8 +14,9 @@ namespace perideal
   /**
    * Writes the summary of a run (summary.json), whole or not at all; rank 0
    * does it, from its own @p summary. JSON knows no NaN and no infinity: they
-   * become null.
-   * @throws ComputationError when the file cannot be written.
+   * become null, and a run that is "done" with such has "failed".
+   * @throws ComputationError on the first rank when the file cannot be written; on all, with the file
+   * written, naming the numbers of a run that is done which are not finite.
    */
   void write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator);
 

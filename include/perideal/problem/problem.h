@@ -2,6 +2,7 @@
 #ifndef perideal_problem_problem_h
 #define perideal_problem_problem_h
 
+#include <perideal/output/lasting_state.h>
 #include <perideal/problem/failure.h>
 #include <perideal/problem/loading.h>
 #include <perideal/problem/run.h>
@@ -81,6 +82,8 @@ namespace perideal
     std::unique_ptr<BondForce<dim>> force;
     NullSpace<dim>                  free_motions;
     State<dim>                      state;
+    /// What of this and of all who move or record it lasts from step to step.
+    LastingState lasting;
   };
 } // namespace perideal
 

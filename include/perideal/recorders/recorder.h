@@ -2,8 +2,8 @@
 #ifndef perideal_recorders_recorder_h
 #define perideal_recorders_recorder_h
 
-#include <perideal/output/checkpoint.h>
 #include <perideal/output/history.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/problem/step.h>
 
 #include <nlohmann/json.hpp>
@@ -21,17 +21,14 @@ namespace perideal
 
   /**
    * One thing that is recorded of a run: energies, reactions, gauges, cracks. It adds its columns to the
-   * history and its part to summary.json, and saves what it must remember. A recorder reads the problem and
-   * the step, and knows neither the solver nor the driver.
+   * history and its part to summary.json, and registers what it must remember. A recorder reads the problem
+   * and the step, and knows neither the solver nor the driver.
    */
   template <int dim>
   class Recorder
   {
   public:
     virtual ~Recorder() = default;
-
-    /// Returns the name under which checkpoints keep its state.
-    virtual std::string name() const = 0;
 
     /// Looks at the body before the first step, with precracks cut. Collective.
     virtual void start(nlohmann::ordered_json &) {}
@@ -56,15 +53,9 @@ namespace perideal
     /// @param is_done whether it came to its end
     virtual std::string describe(const nlohmann::ordered_json &, const bool /*is_done*/) const { return {}; }
 
-    /// Returns what a run that goes on must know.
-    /// @param summary as far as it has come
-    virtual nlohmann::ordered_json save(const nlohmann::ordered_json &, Checkpoint &) const
-    {
-      return nullptr;
-    }
-
-    /// Goes on from there. Collective.
-    virtual void resume(const nlohmann::ordered_json &, const Checkpoint &, nlohmann::ordered_json &) {}
+    /// Registers what a run that goes on must know.
+    /// @param summary as far as it has come, which must outlive the state
+    virtual void register_state(LastingState &, nlohmann::ordered_json & /*summary*/) {}
   };
 } // namespace perideal
 

@@ -42,7 +42,9 @@ namespace perideal
 
     /// Opens history and fields, those of the run that this one goes on from included. Collective.
     /// @param last_row of the history to keep; negative: none
-    void open(const double last_row);
+    /// @param resumed what this run goes on from; null: nothing
+    /// @throws InputError where the history is not that of the run it goes on from.
+    void open(const double last_row, const Checkpoint *resumed);
 
     /// Whether there are files that finish() must complete.
     bool is_open() const { return history != nullptr; }
@@ -65,11 +67,8 @@ namespace perideal
     /// Completes the files of this rank alone, where other ranks may not come along.
     void abandon() noexcept;
 
-    /// Leaves in a checkpoint what the recorders must remember. Collective.
-    void save(Checkpoint &checkpoint) const;
-
-    /// Goes on from there. Collective.
-    void resume(const Checkpoint &checkpoint);
+    /// Registers what the recorders and their files must remember.
+    void register_state(LastingState &state);
 
     /// Number of field files so far.
     std::size_t n_frames() const { return frame_times.size(); }

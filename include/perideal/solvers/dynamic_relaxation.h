@@ -44,8 +44,8 @@ namespace perideal
 
     using EquilibriumPath<dim>::displacement;
 
-    void save(Checkpoint &checkpoint) const override;
-    void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time) override;
+    void register_state(LastingState &state) override;
+    void resume(const NodalVector &external, const double time) override;
 
   private:
     /// Of all ranks: norms of forces, and products of the motion.

@@ -6,7 +6,7 @@
 #include <perideal/boundary/face_values.h>
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/system/constrained_operator.h>
-#include <perideal/output/checkpoint.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <functional>
@@ -94,11 +94,11 @@ namespace perideal
     /// Restores the last equilibrium, for another attempt at the next; broken bonds stay broken.
     void restore();
 
-    /// Writes into a checkpoint what the next step needs of the last equilibrium. Collective.
-    virtual void save(Checkpoint &checkpoint) const;
-    /// Continues from a checkpoint, with the bonds broken that broke before it. Collective.
-    /// @param external force of the loads at the time of the checkpoint [N]
-    virtual void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time);
+    /// Registers what the next step needs of the last equilibrium.
+    virtual void register_state(LastingState &state);
+    /// Goes on from a state of an earlier run, with the bonds that broke until then broken. Collective.
+    /// @param external force of the loads at that time [N]
+    virtual void resume(const NodalVector &external, const double time);
 
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;

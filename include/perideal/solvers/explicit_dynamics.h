@@ -9,10 +9,13 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace perideal
 {
+  class LastingState;
+
   /// Energies of all ranks [J].
   struct EnergyBudget
   {
@@ -67,17 +70,11 @@ namespace perideal
     /// Advances by one step.
     void advance();
 
-    /// Returns this rank's shares of the energies so far [J]; a checkpoint keeps their sums over the ranks.
-    std::vector<double> energy_shares() const;
-    /// Continues with the displacement and velocity given, as after advance().
-    /// @param energy_shares as they were; another number of ranks may have other shares of the same sums
-    void resume(const unsigned int         step,
-                const GlobalIndex          n_broken,
-                const double               dissipated_energy,
-                const std::vector<double> &energy_shares);
+    /// Registers what the next step needs of this one, after advance().
+    void register_state(LastingState &state);
 
-    double       time() const { return n_steps * scheme.time_step; }
-    unsigned int step() const { return n_steps; }
+    double        time() const { return n_steps * scheme.time_step; }
+    std::uint64_t step() const { return n_steps; }
 
     /// Energies at the present time, after evaluate(). Collective.
     EnergyBudget energy() const;
@@ -86,7 +83,6 @@ namespace perideal
     /// Forces of the supports at the present time [N], zero in free components.
     const NodalVector &reaction() const { return work.support_force; }
     GlobalIndex        n_broken() const { return breaks.total; }
-    double             dissipated_energy() const { return breaks.energy; }
     GlobalIndex        n_broken_now() const { return breaks.now; }
 
     /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),
@@ -119,8 +115,8 @@ namespace perideal
     {
       NodalVector force, earlier_velocity, support_force, relative_drag;
     };
-    Work         work;
-    unsigned int n_steps = 0;
+    Work          work;
+    std::uint64_t n_steps = 0;
 
     /// Of all ranks: bonds broken, now and so far, and the energy that they set free.
     struct Breaks

@@ -63,8 +63,7 @@ namespace perideal
     /// Nodes of all ranks that springs hold.
     GlobalIndex n_floating() const override { return anchors.n_nodes; }
 
-    void save(Checkpoint &checkpoint) const override;
-    void resume(const Checkpoint &checkpoint, const NodalVector &external, const double time) override;
+    void register_state(LastingState &state) override;
 
   private:
     void                                 start_step(const double time) override;

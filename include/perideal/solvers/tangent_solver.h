@@ -2,9 +2,8 @@
 #ifndef perideal_solvers_tangent_solver_h
 #define perideal_solvers_tangent_solver_h
 
+#include <perideal/output/lasting_state.h>
 #include <perideal/solvers/linear_solver.h>
-
-#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <memory>
@@ -38,10 +37,8 @@ namespace perideal
     /// on nothing but the equilibrium where it starts. A run that goes on from there knows no other.
     void start_step() { is_slow = is_slow || !is_first; }
 
-    /// What the next step needs to know of earlier solves.
-    nlohmann::ordered_json save() const;
-    /// Continues from what save() returned.
-    void resume(const nlohmann::ordered_json &state);
+    /// Registers what the next step needs to know of earlier solves.
+    void register_state(LastingState &state);
 
   private:
     /// Makes the solver for the present system; where that cannot be, one that there is stays.

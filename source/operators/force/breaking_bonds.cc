@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/breaking_bonds.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -161,6 +162,19 @@ namespace perideal
   LocalIndex BreakingBonds<dim>::near_end(const BondIndex slot) const
   {
     return std::upper_bound(bonds.row.begin(), bonds.row.end(), slot) - 1 - bonds.row.begin();
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::register_state(LastingState &state)
+  {
+    state.add_bond_array(
+      "broken bonds",
+      "-",
+      0,
+      [this] {
+        return BondArray{"-", 0, broken_bonds(), {}};
+      },
+      [this](const BondArray &array) { restore_broken(array.bonds); });
   }
 
   template <int dim>

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace output_test
 {
   /// Nodes 0, 1, ... in a row, in blocks by rank, each a neighbour of the next one.
@@ -22,12 +24,9 @@ namespace output_test
         number.push_back(begin - 1);
       if (end < n)
         number.push_back(end);
-      nodes = {{}, {}, end - begin, n, communicator};
+      nodes = {{}, end - begin, n, communicator};
       for (const unsigned int i : number)
-        {
-          nodes.key.push_back((std::uint64_t(3) << 60) + 7 * i);
-          nodes.number.push_back(i);
-        }
+        nodes.key.push_back((std::uint64_t(3) << 60) + 7 * i);
     }
 
     bool is_owned(const perideal::LocalIndex i) const { return i < nodes.n_owned; }

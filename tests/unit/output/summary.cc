@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "output_test.h"
 
+#include <perideal/base/exceptions.h>
 #include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 
@@ -18,7 +19,7 @@ TEST(Summary, RoundTripKeepsOrderAndDigits)
   create_output_directory(directory, MPI_COMM_WORLD);
 
   nlohmann::ordered_json summary;
-  summary["status"]       = "done";
+  summary["status"]       = "stopped";
   summary["nodes"]        = std::uint64_t(5000000000);
   summary["errors"]["l2"] = 1. / 3e4;
   summary["bad"]     = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
@@ -27,11 +28,34 @@ TEST(Summary, RoundTripKeepsOrderAndDigits)
 
   const auto read = nlohmann::ordered_json::parse(read_text(directory + "/summary.json"));
   EXPECT_EQ(read.begin().key(), "status");
+  EXPECT_EQ(read["status"], "stopped");
   EXPECT_EQ(read["nodes"], 5000000000u);
   EXPECT_EQ(read["errors"]["l2"].get<double>(), 1. / 3e4);
   EXPECT_TRUE(read["bad"][0].is_null());
   EXPECT_TRUE(read["bad"][1].is_null());
   EXPECT_EQ(read["command"], "caf\xef\xbf\xbd");
+}
+
+TEST(Summary, RunsThatAreDoneHaveFiniteNumbers)
+{
+  const auto directory = scratch_directory("summary_not_finite");
+  create_output_directory(directory, MPI_COMM_WORLD);
+  const nlohmann::ordered_json summary = {
+    {"status", "done"},
+    {"energy", {{"strain", std::numeric_limits<double>::infinity()}, {"drift", nullptr}}}};
+  try
+    {
+      write_summary(directory + "/summary.json", summary, MPI_COMM_WORLD);
+      ADD_FAILURE() << "nothing was thrown";
+    }
+  catch (const ComputationError &error)
+    {
+      EXPECT_NE(std::string(error.what()).find("/energy/strain"), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("drift"), std::string::npos) << error.what();
+    }
+  const auto read = nlohmann::ordered_json::parse(read_text(directory + "/summary.json"));
+  EXPECT_EQ(read["status"], "failed");
+  EXPECT_TRUE(read["energy"]["strain"].is_null());
 }
 
 TEST(ReportTable, AlignsNamesLeftAndNumbersRight)

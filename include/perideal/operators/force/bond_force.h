@@ -13,6 +13,8 @@
 
 namespace perideal
 {
+  class LastingState;
+
   /**
    * Computes the force of the bonds in the deformed body, geometrically nonlinear: in the
    * terms of FamilyCoefficients, with e = |y_j - y_i| - |xi| and eps = |xi| e,
@@ -68,11 +70,8 @@ namespace perideal
     /// cuts is shown on both ranks, from either end. Lost bonds pull with nothing.
     virtual void visit_bond_forces(const VisitBond &visit) const = 0;
 
-    /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both
-    /// ranks.
-    virtual std::vector<BondEnds> broken_bonds() const = 0;
-    /// Breaks bonds again that broke in an earlier run. Those that are no bonds here are left out.
-    virtual void restore_broken(const std::vector<BondEnds> &broken) = 0;
+    /// Registers what lasts: the bonds that broke, in their order; the memory of its law.
+    virtual void register_state(LastingState &state) = 0;
 
     /// All bonds of this rank, broken ones included.
     virtual const BondList &bond_list() const = 0;

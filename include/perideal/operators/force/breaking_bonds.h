@@ -21,17 +21,16 @@ namespace perideal
   class BreakingBonds : public BondForce<dim>
   {
   public:
-    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void        judge_bonds(const bool judge) override { judges_bonds = judge; }
-    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
-    GlobalIndex n_broken_now() const override;
-    std::vector<BondEnds> broken_bonds() const override;
-    void                  restore_broken(const std::vector<BondEnds> &broken) override;
-    const BondList       &bond_list() const override { return bonds; }
-    const NodeRecord     *positions() const override { return position.data(); }
-    std::vector<double>   damage() const override { return share_of_family(volumes.broken); }
-    std::vector<double>   cut_share() const override { return share_of_family(volumes.cut); }
-    double                share_computed() const override { return regions.share_awake(); }
+    void              set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
+    void              judge_bonds(const bool judge) override { judges_bonds = judge; }
+    GlobalIndex       cut(const BondPredicate<dim> &is_cut) override;
+    GlobalIndex       n_broken_now() const override;
+    void              register_state(LastingState &state) override;
+    const BondList   &bond_list() const override { return bonds; }
+    const NodeRecord *positions() const override { return position.data(); }
+    std::vector<double> damage() const override { return share_of_family(volumes.broken); }
+    std::vector<double> cut_share() const override { return share_of_family(volumes.cut); }
+    double              share_computed() const override { return regions.share_awake(); }
 
   protected:
     /// @param has_sums whether forces need sums over families first
@@ -43,6 +42,9 @@ namespace perideal
     virtual bool carries_force(const BondIndex slot) const = 0;
     /// Makes all weights of a bond zero.
     virtual void clear_weights(const BondIndex slot) = 0;
+
+    /// Breaks bonds again that broke in an earlier run. Those that are no bonds here are left out.
+    virtual void restore_broken(const std::vector<BondEnds> &broken);
 
     /// Whether compute() has to look for bonds that break.
     bool can_break() const { return judges_bonds && !critical_stretch.empty(); }
@@ -70,6 +72,9 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
+    /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both
+    /// ranks.
+    std::vector<BondEnds> broken_bonds() const;
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
     /// Adds the volumes behind a bond to those of its owned ends.
