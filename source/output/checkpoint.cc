@@ -7,8 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <fstream>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <unordered_map>
@@ -126,48 +124,6 @@ namespace perideal
         if (!of_rank.empty())
           return of_rank;
       return "";
-    }
-
-    /// What checkpoint.json says.
-    struct Pointer
-    {
-      std::string   file;
-      std::uint32_t checksum = 0;
-      /// Of the reading; empty: none.
-      std::string problem;
-
-      template <typename Archive>
-      void serialize(Archive &archive, const unsigned int)
-      {
-        archive &file &checksum &problem;
-      }
-    };
-
-    /// Collective.
-    Pointer read_pointer(const std::string &directory, MPI_Comm communicator)
-    {
-      Pointer result;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-        {
-          std::ifstream file(directory + "/checkpoint.json");
-          const Json    pointer = Json::parse(file, nullptr, false);
-          const auto    is      = [&](const char *name, const auto test) {
-            return pointer.is_object() && pointer.contains(name) && test(pointer[name]);
-          };
-          if (!file.is_open())
-            result.problem = "there is no checkpoint to continue from";
-          else if (is("file", [](const Json &value) { return value.is_string(); }) &&
-                   is("checksum", [](const Json &value) { return value.is_number_unsigned(); }))
-            {
-              result.file     = pointer["file"].get<std::string>();
-              result.checksum = pointer["checksum"].get<std::uint32_t>();
-            }
-          else
-            result.problem =
-              "the checkpoint cannot be read: checkpoint.json is damaged, or of another version "
-              "of the program";
-        }
-      return dealii::Utilities::MPI::broadcast(communicator, result, 0);
     }
 
     /// Whether as many ranks with the same nodes wrote the file: the answer for this rank.
@@ -298,12 +254,12 @@ namespace perideal
   void
   write_checkpoint(const std::string &directory, const Checkpoint &checkpoint, const CheckpointNodes &nodes)
   {
-    const MPI_Comm      communicator = nodes.communicator;
-    const bool          last_is_0    = read_pointer(directory, communicator).file == "checkpoint_0.h5";
-    const std::string   name         = last_is_0 ? "checkpoint_1.h5" : "checkpoint_0.h5";
-    const std::string   path         = directory + "/" + name;
-    const std::uint32_t sum          = checksum(write_file(path, checkpoint, nodes));
-    const std::string   complaint    = first_complaint(communicator, [&] {
+    const MPI_Comm    communicator = nodes.communicator;
+    const bool        last_is_0 = CheckpointPointer::read(directory, communicator).file == "checkpoint_0.h5";
+    const std::string name      = last_is_0 ? "checkpoint_1.h5" : "checkpoint_0.h5";
+    const std::string path      = directory + "/" + name;
+    const std::uint32_t sum     = checksum(write_file(path, checkpoint, nodes));
+    const std::string   complaint = first_complaint(communicator, [&] {
       CheckpointFile(path, sum).verify(dealii::Utilities::MPI::this_mpi_process(communicator),
                                        dealii::Utilities::MPI::n_mpi_processes(communicator));
     });
@@ -331,9 +287,9 @@ namespace perideal
 
   Checkpoint read_checkpoint(const std::string &directory, const CheckpointNodes &nodes)
   {
-    const MPI_Comm     communicator = nodes.communicator;
-    const unsigned int rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
-    const Pointer      pointer      = read_pointer(directory, communicator);
+    const MPI_Comm          communicator = nodes.communicator;
+    const unsigned int      rank         = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const CheckpointPointer pointer      = CheckpointPointer::read(directory, communicator);
     if (!pointer.problem.empty())
       throw no_restart(pointer.problem, directory + "/checkpoint.json");
     const std::string path = directory + "/" + pointer.file;

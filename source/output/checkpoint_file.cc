@@ -2,8 +2,39 @@
 #include <perideal/output/checkpoint_file.h>
 #include <perideal/output/checksum.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <fstream>
+
 namespace perideal
 {
+  using Json = nlohmann::ordered_json;
+
+  CheckpointPointer CheckpointPointer::read(const std::string &directory, MPI_Comm communicator)
+  {
+    CheckpointPointer result;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        std::ifstream file(directory + "/checkpoint.json");
+        const Json    pointer = Json::parse(file, nullptr, false);
+        const auto    is      = [&](const char *name, const auto test) {
+          return pointer.is_object() && pointer.contains(name) && test(pointer[name]);
+        };
+        if (!file.is_open())
+          result.problem = "there is no checkpoint to continue from";
+        else if (is("file", [](const Json &value) { return value.is_string(); }) &&
+                 is("checksum", [](const Json &value) { return value.is_number_unsigned(); }))
+          {
+            result.file     = pointer["file"].get<std::string>();
+            result.checksum = pointer["checksum"].get<std::uint32_t>();
+          }
+        else
+          result.problem = "the checkpoint cannot be read: checkpoint.json is damaged, or of another version "
+                           "of the program";
+      }
+    return dealii::Utilities::MPI::broadcast(communicator, result, 0);
+  }
+
   CheckpointFile::CheckpointFile(const std::string &path, const std::uint32_t header_checksum)
     : path(path)
     , file(path)

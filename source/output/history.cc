@@ -37,12 +37,12 @@ namespace perideal
       broadcast(communicator, is_writer && last_step >= 0 ? read_rows(last_step, checksum) : "", 0);
     if (!problem.empty())
       refuse(problem);
-    warning_text = broadcast(communicator, warning_text, 0);
-    column_names = broadcast(communicator, column_names, 0);
-    goes_on      = !column_names.empty();
+    earlier.warning     = broadcast(communicator, earlier.warning, 0);
+    column_names        = broadcast(communicator, column_names, 0);
+    earlier.has_columns = !column_names.empty();
     columns.resize(column_names.size());
     if (is_writer)
-      csv.open(directory + "/history.csv", goes_on ? std::ios::app : std::ios::out);
+      csv.open(directory + "/history.csv", earlier.has_columns ? std::ios::app : std::ios::out);
   }
 
   void History::refuse(const std::string &problem) const
@@ -67,7 +67,7 @@ namespace perideal
     std::string       line;
     if (!std::getline(file, line))
       {
-        warning_text = "there is no history.csv of the steps before the checkpoint: a new one begins here";
+        earlier.warning = "there is no history.csv of the steps before the checkpoint: a new one begins here";
         return "";
       }
     column_names = read_csv_header(line);
@@ -108,8 +108,8 @@ namespace perideal
 
   void History::add(const std::string &name, const double value)
   {
-    next_row.names.push_back(name);
-    next_row.values.push_back(value);
+    row_names.push_back(name);
+    row_values.push_back(value);
   }
 
   void History::end_row()
@@ -117,26 +117,25 @@ namespace perideal
     Assert(!is_finished, dealii::ExcMessage("finish() was called before"));
     if (columns.empty())
       {
-        column_names = next_row.names;
+        column_names = row_names;
         columns.resize(column_names.size());
         if (is_writer)
           write_csv_header(csv, column_names);
       }
-    if (goes_on && next_row.names != column_names)
-      refuse("history.csv has other columns than this run: " +
-             first_difference(column_names, next_row.names));
-    AssertThrow(next_row.names == column_names, dealii::ExcMessage("a row of the history has other columns"));
-    goes_on = false;
+    if (earlier.has_columns && row_names != column_names)
+      refuse("history.csv has other columns than this run: " + first_difference(column_names, row_names));
+    AssertThrow(row_names == column_names, dealii::ExcMessage("a row of the history has other columns"));
+    earlier.has_columns = false;
     if (is_writer)
       {
-        keep_row(next_row.values);
-        write_csv_row(csv, next_row.values);
+        keep_row(row_values);
+        write_csv_row(csv, row_values);
         csv.flush();
         if (!csv)
           throw ComputationError("cannot write '" + directory + "/history.csv': is the disk full?");
       }
-    next_row.names.clear();
-    next_row.values.clear();
+    row_names.clear();
+    row_values.clear();
   }
 
   void History::add_series(const std::string &name, const std::vector<double> &values)

@@ -16,7 +16,10 @@
 
 namespace perideal
 {
-  void write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator)
+  void write_summary(const std::string            &path,
+                     const nlohmann::ordered_json &summary,
+                     MPI_Comm                      communicator,
+                     const bool                    is_done)
   {
     // A path or a name of the user's may hold bytes that are no UTF-8; the
     // results of a run are not lost for that.
@@ -26,10 +29,9 @@ namespace perideal
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         written = summary;
-        for (const std::string &number : non_finite_paths(summary))
-          not_finite += (not_finite.empty() ? "" : ", ") + number;
-        if (summary.value("status", "") != "done")
-          not_finite.clear();
+        if (is_done)
+          for (const std::string &number : non_finite_paths(summary))
+            not_finite += (not_finite.empty() ? "" : ", ") + number;
         if (!not_finite.empty())
           written["status"] = "failed";
         replace_file(path, written.dump(2, ' ', false, mend) + "\n");

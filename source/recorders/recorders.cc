@@ -122,7 +122,7 @@ namespace perideal
     summary["memory_bytes"]   = peak_memory_bytes(run.communicator);
     summary["operator_bytes"] = dealii::Utilities::MPI::sum(report.operator_bytes, run.communicator);
     summary["ranks"]          = dealii::Utilities::MPI::n_mpi_processes(run.communicator);
-    write_summary(problem.parameters.output_directory + "/summary.json", summary, run.communicator);
+    write_summary(problem.parameters.output_directory + "/summary.json", summary, run.communicator, done);
 
     for (const auto &recorder : recorders)
       run.screen << recorder->describe(result, done);

@@ -78,7 +78,7 @@ namespace perideal
   {
     EquilibriumPath<dim>::register_state(state);
     linear.register_state(state);
-    if (!find_floating)
+    if (!anchors.find_floating)
       return;
     state.add_value("floating nodes", anchors.n_nodes);
     state.add_node_array(

@@ -13,6 +13,24 @@
 
 namespace perideal
 {
+  /// What checkpoint.json says of the last checkpoint.
+  struct CheckpointPointer
+  {
+    /// Rank 0 reads. Collective.
+    static CheckpointPointer read(const std::string &directory, MPI_Comm communicator);
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &file &checksum &problem;
+    }
+
+    std::string   file;
+    std::uint32_t checksum = 0;
+    /// Why it cannot be read; empty: it can.
+    std::string problem;
+  };
+
   /**
    * The file of a checkpoint as one rank reads it. The header, a JSON text, has for each table its unit,
    * numbers a line, lines and checksums by the rank that wrote them:

@@ -61,7 +61,7 @@ namespace perideal
     std::uint32_t checksum() const;
 
     /// What the user should know of the history that goes on; empty: nothing.
-    const std::string &warning() const { return warning_text; }
+    const std::string &warning() const { return earlier.warning; }
 
     /// Writes history.h5; nothing can be added afterwards. A '/' in a name, which
     /// HDF5 keeps for groups, is written as '|'.
@@ -75,12 +75,10 @@ namespace perideal
     /// @throws InputError
     void refuse(const std::string &problem) const;
 
-    std::string directory;
-    MPI_Comm    communicator;
-    bool        is_writer;
-    bool        is_finished = false;
-    /// Whether the columns are those of an earlier run.
-    bool          goes_on = false;
+    std::string   directory;
+    MPI_Comm      communicator;
+    bool          is_writer;
+    bool          is_finished = false;
     std::ofstream csv;
 
     struct Row
@@ -95,7 +93,14 @@ namespace perideal
 
     /// Of the rows, on rank 0.
     boost::crc_32_type rows_crc;
-    std::string        warning_text;
+
+    /// What there is of an earlier run: whether the columns are its own, and what to say of it.
+    struct Earlier
+    {
+      bool        has_columns = false;
+      std::string warning;
+    };
+    Earlier earlier;
   };
 } // namespace perideal
 

@@ -14,11 +14,15 @@ namespace perideal
   /**
    * Writes the summary of a run (summary.json), whole or not at all; rank 0
    * does it, from its own @p summary. JSON knows no NaN and no infinity: they
-   * become null, and a run that is "done" with such has "failed".
+   * become null.
+   * @param is_done whether the run came to its end: with such numbers it has failed
    * @throws ComputationError on the first rank when the file cannot be written; on all, with the file
    * written, naming the numbers of a run that is done which are not finite.
    */
-  void write_summary(const std::string &path, const nlohmann::ordered_json &summary, MPI_Comm communicator);
+  void write_summary(const std::string            &path,
+                     const nlohmann::ordered_json &summary,
+                     MPI_Comm                      communicator,
+                     const bool                    is_done = false);
 
   /// Writes a table for the screen, columns aligned: the first to the left, the
   /// others, which hold numbers, to the right. Rows have as many cells as the header.
