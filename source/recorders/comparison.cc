@@ -172,7 +172,7 @@ namespace perideal
         const auto        errors       = field_errors(nodes, field, reference, [&](const LocalIndex i) {
           return problem.loading.supports->held().in_collar(i);
         });
-        Json              result       = {{"l2", number_or_null(errors.l2)}, {"max", number_or_null(errors.max)}};
+        Json              result = {{"l2", number_or_null(errors.l2)}, {"max", number_or_null(errors.max)}};
         for (const auto &profile : profiles)
           {
             const auto along = profile_errors(nodes, profile.second->local_nodes(), field, reference);

@@ -19,8 +19,8 @@ namespace perideal
    * What is misprinted: chi = 3.59 comes from a bar in 1-D (appendix C), and the factor chi/(chi-1) stands
    * before the whole traction, so that external forces come out 39 % too large; and lambda, 1 with the
    * unit N/m^11, makes of L whatever the unit of length is: 3e-21 of the traction in metres, 3e+12 times
-   * the traction in millimetres (a plate of 1 m by 0.5 m with 100 cells along it). The treatment "transfer" has
-   * neither.
+   * the traction in millimetres (a plate of 1 m by 0.5 m with 100 cells along it). The treatment "transfer"
+   * has neither.
    */
   template <int dim>
   class PublishedTransfer
