@@ -108,8 +108,8 @@ namespace perideal
 
   void History::add(const std::string &name, const double value)
   {
-    row_names.push_back(name);
-    row_values.push_back(value);
+    next_row.names.push_back(name);
+    next_row.values.push_back(value);
   }
 
   void History::end_row()
@@ -117,25 +117,26 @@ namespace perideal
     Assert(!is_finished, dealii::ExcMessage("finish() was called before"));
     if (columns.empty())
       {
-        column_names = row_names;
+        column_names = next_row.names;
         columns.resize(column_names.size());
         if (is_writer)
           write_csv_header(csv, column_names);
       }
-    if (earlier.has_columns && row_names != column_names)
-      refuse("history.csv has other columns than this run: " + first_difference(column_names, row_names));
-    AssertThrow(row_names == column_names, dealii::ExcMessage("a row of the history has other columns"));
+    if (earlier.has_columns && next_row.names != column_names)
+      refuse("history.csv has other columns than this run: " +
+             first_difference(column_names, next_row.names));
+    AssertThrow(next_row.names == column_names, dealii::ExcMessage("a row of the history has other columns"));
     earlier.has_columns = false;
     if (is_writer)
       {
-        keep_row(row_values);
-        write_csv_row(csv, row_values);
+        keep_row(next_row.values);
+        write_csv_row(csv, next_row.values);
         csv.flush();
         if (!csv)
           throw ComputationError("cannot write '" + directory + "/history.csv': is the disk full?");
       }
-    row_names.clear();
-    row_values.clear();
+    next_row.names.clear();
+    next_row.values.clear();
   }
 
   void History::add_series(const std::string &name, const std::vector<double> &values)
