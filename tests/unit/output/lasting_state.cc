@@ -12,7 +12,7 @@ using namespace output_test;
 
 namespace
 {
-  constexpr unsigned int n_nodes = 13;
+  constexpr unsigned int n_in_line = 13;
 
   /// A law with memory: a number for each node and one for some of the bonds.
   struct SofteningLaw
@@ -95,7 +95,7 @@ namespace
     EXPECT_EQ(other.largest_strain, expected.largest_strain);
     EXPECT_EQ(other.softened, expected.softened);
     EXPECT_EQ(other.n_softened, expected.n_softened);
-    EXPECT_EQ(dealii::Utilities::MPI::sum(other.work, after.nodes.communicator), n_nodes);
+    EXPECT_EQ(dealii::Utilities::MPI::sum(other.work, after.nodes.communicator), n_in_line);
     ASSERT_EQ(other_state.fields().size(), 1u);
     EXPECT_EQ(other_state.fields()[0].name, "largest strain");
     EXPECT_EQ(other_state.fields()[0].get(), expected.largest_strain);
@@ -104,14 +104,14 @@ namespace
 
 TEST(LastingState, MemoryComesBackOnAnyNumberOfRanks)
 {
-  const LineOfNodes of_all(n_nodes, MPI_COMM_WORLD), alone(n_nodes, MPI_COMM_SELF);
+  const LineOfNodes of_all(n_in_line, MPI_COMM_WORLD), alone(n_in_line, MPI_COMM_SELF);
   check_restart(scratch_directory("state_all_all"), of_all, of_all);
   check_restart(scratch_directory("state_all_one"), of_all, alone);
 }
 
 TEST(LastingState, MemoryOfOneRankComesBackOnAll)
 {
-  const LineOfNodes of_all(n_nodes, MPI_COMM_WORLD), alone(n_nodes, MPI_COMM_SELF);
+  const LineOfNodes of_all(n_in_line, MPI_COMM_WORLD), alone(n_in_line, MPI_COMM_SELF);
   const std::string directory = scratch_directory("state_one_all");
   if (is_first_rank())
     check_restart(directory, alone, alone);
