@@ -130,7 +130,7 @@ namespace perideal
             return s.solver.is_nonlinear_static() && (s.loads.has_mirror() || has_reference(s));
           },
           "quasi static and dynamic relaxation hold nodes",
-          "automatic | layer | surface nodes with Solver/Name = ..."),
+          "automatic | layer | surface nodes in quasi static and dynamic relaxation"),
         refuse(
           "Boundary conditions/Layers",
           std::string(displacements) + " other than layer | reference",

@@ -111,7 +111,8 @@ namespace perideal
       std::string describe(const Json &summary, const bool) const override
       {
         std::ostringstream out;
-        for (const auto &entry : summary.value("areal_force_densities", Json::object()).items())
+        const Json         points_of = summary.value("areal_force_densities", Json::object());
+        for (const auto &entry : points_of.items())
           {
             out << "areal force " << entry.key() << " (";
             const char *separator = "";

@@ -111,7 +111,8 @@ namespace perideal
       std::string describe(const Json &summary, const bool) const override
       {
         std::ostringstream out;
-        for (const auto &boundary : summary.value("boundary_stress", Json::object()).items())
+        const Json         boundaries = summary.value("boundary_stress", Json::object());
+        for (const auto &boundary : boundaries.items())
           if (!boundary.value().empty())
             {
               const Json &figures = boundary.value();

@@ -331,7 +331,7 @@ TEST(ArealForceDensity, IsExactForUniformStrain)
   // The scene of QUAD 2.5.2, finite stretches, against an integral over directions.
   Block<3> block(10, {"bond based", "energy"}, 3.);
   dealii::GridTools::scale(6., block.mesh->triangulation);
-  const Nodes<3> nodes(*block.mesh, {3., "sphere"});
+  const Nodes<3> nodes(*block.mesh, {3., HorizonShape::sphere});
   const auto     faces = find_boundary_faces(*block.mesh, nodes);
   for (const auto &strain : {InfiniteBody::uniaxial(), InfiniteBody::triaxial(), InfiniteBody::shear()})
     {

@@ -18,7 +18,7 @@ namespace
 {
   using Variant = std::pair<std::string, std::string>;
 
-  const std::vector<Variant> &variants = test::bond_models;
+  const std::vector<Variant> &force_variants = test::bond_models;
 
   /// Bonds with tensors pull sideways, which has a moment, and feel rotations.
   bool is_central(const Variant &variant)
@@ -75,7 +75,7 @@ namespace
 
   /// A field without pattern, of a size.
   template <int dim>
-  typename LooseBody<dim>::Function rough(const double size, const unsigned int seed)
+  typename LooseBody<dim>::Function rough_motion(const double size, const unsigned int seed)
   {
     return [=](const dealii::Point<dim> &point) {
       dealii::Tensor<1, dim> value;
@@ -90,7 +90,7 @@ namespace
   {
     const auto boxes = test::make_boxes<dim>();
     for (const auto &mesh : boxes)
-      for (const Variant &variant : variants)
+      for (const Variant &variant : force_variants)
         {
           SCOPED_TRACE(variant.first + ", " + variant.second);
           LooseBody<dim> loose(*mesh, variant);
@@ -119,7 +119,7 @@ namespace
   void expect_invariants()
   {
     for_all<dim>([](LooseBody<dim> &loose, const Variant &variant) {
-      const double scale = loose.force_of(rough<dim>(1e-2, 1)).linfty_norm();
+      const double scale = loose.force_of(rough_motion<dim>(1e-2, 1)).linfty_norm();
       ASSERT_GT(scale, 0);
 
       // Pair forces: momentum; central ones: angular momentum.
@@ -145,7 +145,7 @@ namespace
       if (loose.weights->symmetric)
         {
           const NodalVector f         = loose.force;
-          const NodalVector direction = loose.field(rough<dim>(1., 2));
+          const NodalVector direction = loose.field(rough_motion<dim>(1., 2));
           const NodalVector middle    = loose.displacement;
           const double      h         = 1e-6;
           double            energy[2];
@@ -161,7 +161,7 @@ namespace
         }
 
       // At rest exactly nothing pulls.
-      EXPECT_EQ(loose.force_of(rough<dim>(0., 1)).linfty_norm(), 0.);
+      EXPECT_EQ(loose.force_of(rough_motion<dim>(0., 1)).linfty_norm(), 0.);
 
       // At rest, and wherever the body is carried, nothing pulls.
       if (is_central(variant))
@@ -173,7 +173,7 @@ namespace
       // Small displacements: the linear operator.
       const double      small = 1e-8;
       NodalVector       linear(loose.force);
-      const NodalVector u = loose.field(rough<dim>(small, 3));
+      const NodalVector u = loose.field(rough_motion<dim>(small, 3));
       create_bond_operator<dim>(std::shared_ptr<const BondWeights<dim>>(loose.weights))->vmult(linear, u);
       loose.bonds->compute(loose.force, u);
       loose.force += linear;
@@ -186,12 +186,13 @@ namespace
   void expect_released_energy()
   {
     for (const auto &mesh : test::make_boxes<dim>())
-      for (const Variant &variant : variants)
+      for (const Variant &variant : force_variants)
         {
           SCOPED_TRACE(variant.first + ", " + variant.second);
           LooseBody<dim> whole(*mesh, variant), breaking(*mesh, variant);
           const double   spacing = breaking.body.nodes.size() > 0 ? breaking.body.nodes.spacing[0] : 0.;
-          const auto     motion  = rough<dim>(0.05 * dealii::Utilities::MPI::max(spacing, MPI_COMM_WORLD), 4);
+          const auto     motion =
+            rough_motion<dim>(0.05 * dealii::Utilities::MPI::max(spacing, MPI_COMM_WORLD), 4);
           breaking.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.04; });
           whole.force_of(motion);
           breaking.force_of(motion);
@@ -200,13 +201,13 @@ namespace
           ASSERT_LT(n_broken, breaking.body.families->n_bonds());
 
           const double      dt       = 0.1;
-          const NodalVector velocity = whole.field(rough<dim>(1., 5));
+          const NodalVector velocity = whole.field(rough_motion<dim>(1., 5));
           const double      energy   = whole.bonds->strain_energy() - breaking.bonds->strain_energy();
           const double expected = energy - 0.5 * dt * (velocity * breaking.force - velocity * whole.force);
           EXPECT_NEAR(breaking.bonds->released_energy(velocity, dt), expected, 1e-10 * std::abs(energy));
 
           // For good: back at rest they stay broken, and break no more.
-          breaking.bonds->compute(breaking.force, whole.field(rough<dim>(0., 4)));
+          breaking.bonds->compute(breaking.force, whole.field(rough_motion<dim>(0., 4)));
           EXPECT_EQ(breaking.bonds->n_broken_now(), 0u);
           double damage = 0;
           for (const double share : breaking.bonds->damage())
@@ -233,7 +234,7 @@ TEST(BondForce, TellsWhatBreakingReleases)
 TEST(BondForce, CutsBondsApartFromDamage)
 {
   const auto mesh = test::make_box<2>({8, 7}, {1., 1.}, 0.2);
-  for (const Variant &variant : variants)
+  for (const Variant &variant : force_variants)
     {
       LooseBody<2> loose(*mesh, variant);
       loose.bonds->cut(
@@ -256,8 +257,9 @@ TEST(BondForce, CutsBondsApartFromDamage)
 TEST(BondForce, CountsPartialVolumesInDamage)
 {
   const auto   mesh = test::make_refined_box<2>({6, 5}, {0.4, 0.5}, 0.3);
-  LooseBody<2> loose(*mesh, variants[0], "partial volume"), gone(*mesh, variants[0], "partial volume");
-  const auto  &families = *loose.body.families;
+  LooseBody<2> loose(*mesh, force_variants[0], "partial volume"),
+    gone(*mesh, force_variants[0], "partial volume");
+  const auto &families = *loose.body.families;
   gone.bonds->cut([](const dealii::Point<2> &, const dealii::Point<2> &) { return true; });
   for (const double share : gone.bonds->cut_share())
     EXPECT_NEAR(share, 1., 1e-14);
@@ -292,12 +294,12 @@ TEST(BondForce, CountsPartialVolumesInDamage)
 TEST(BondForce, BreaksOnlyWhenItJudges)
 {
   const auto mesh = test::make_box<2>({8, 7}, {1., 1.}, 0.2);
-  for (const Variant &variant : variants)
+  for (const Variant &variant : force_variants)
     {
       LooseBody<2> loose(*mesh, variant), whole(*mesh, variant);
       loose.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.04; });
       loose.bonds->judge_bonds(false);
-      const auto motion = rough<2>(0.01, 6);
+      const auto motion = rough_motion<2>(0.01, 6);
       loose.force_of(motion);
       EXPECT_EQ(loose.bonds->n_broken_now(), 0u);
       loose.force -= whole.force_of(motion);
@@ -417,7 +419,7 @@ TEST(BondForce, OnlyMultipliersCanBeThoseAfterTheCut)
 TEST(BondForce, LeavesOutWhatIsAtRest)
 {
   const auto mesh = test::make_box<2>({600, 6}, {100., 1.}, 0.2);
-  for (const Variant &variant : variants)
+  for (const Variant &variant : force_variants)
     {
       LooseBody<2> pulled(*mesh, variant), shifted(*mesh, variant);
       const auto   bump = [](const dealii::Point<2> &x) {

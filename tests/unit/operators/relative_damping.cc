@@ -63,7 +63,7 @@ namespace
   };
 
   template <int dim>
-  dealii::Tensor<1, dim> rough(const dealii::Point<dim> &x)
+  dealii::Tensor<1, dim> rough_velocity(const dealii::Point<dim> &x)
   {
     dealii::Tensor<1, dim> result;
     for (int d = 0; d < dim; ++d)
@@ -79,7 +79,7 @@ namespace
       {
         DampedBody<dim> damped(*mesh);
         const auto      bent = [](const dealii::Point<dim> &x) { return 0.1 * x[0] * Vector(x); };
-        damped.force_of(bent, rough<dim>);
+        damped.force_of(bent, rough_velocity<dim>);
         const double scale = damped.force.linfty_norm();
         ASSERT_GT(scale, 0.);
 

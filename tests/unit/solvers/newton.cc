@@ -56,7 +56,7 @@ namespace
       system  = std::make_unique<ConstrainedOperator<2>>(tangent, mirror, body.nodes, held.mask());
       linear  = std::make_unique<TangentSolver<2>>(parameters, [this](const SolverParameters &solver) {
         return create_linear_solver<2>(
-          solver, {"block jacobi", "", ""}, *system, null_space, body.nodes, nullptr);
+          solver, {PreconditionerName::block_jacobi, {}, ""}, *system, null_space, body.nodes, nullptr);
       });
       newton  = std::make_unique<NewtonSolver<2>>(
         *bonds, *tangent, *system, *linear, held, loads, null_space, controls);
@@ -218,7 +218,7 @@ namespace
     body.parameters.max_iterations = 120;
     TangentSolver<2> linear(body.parameters, [&](const SolverParameters &solver) {
       return create_linear_solver<2>(
-        solver, {"block jacobi", "", ""}, *body.system, body.null_space, body.body.nodes, nullptr);
+        solver, {PreconditionerName::block_jacobi, {}, ""}, *body.system, body.null_space, body.body.nodes, nullptr);
     });
     NodalVector      displacement(body.load), source(body.load), solution(body.load), residual(body.load);
     for (LocalIndex i = 0; i < body.body.nodes.size(); ++i)
