@@ -35,6 +35,7 @@ TEXT_IS_READ_IN = {
     "source/mesh/read_gmsh.cc",
     "source/output/checkpoint.cc",
     "source/output/checkpoint_file.cc",
+    "source/parameters/elastic_symmetry.cc",
     "source/parameters/parameter_file.cc",
     "source/parameters/point_text.cc",
 }

@@ -106,7 +106,7 @@ namespace
 
   /// A rigid rotation by half a radian and a translation.
   template <int dim>
-  dealii::Tensor<1, dim> rigid_motion(const dealii::Point<dim> &x)
+  dealii::Tensor<1, dim> rigid_turn(const dealii::Point<dim> &x)
   {
     dealii::Tensor<1, dim> u;
     const double           c = std::cos(0.5), s = std::sin(0.5);
@@ -166,7 +166,7 @@ namespace
       // At rest, and wherever the body is carried, nothing pulls.
       if (is_central(variant))
         {
-          EXPECT_LE(loose.force_of(rigid_motion<dim>).linfty_norm(), 1e-11 * scale);
+          EXPECT_LE(loose.force_of(rigid_turn<dim>).linfty_norm(), 1e-11 * scale);
           EXPECT_NEAR(loose.bonds->strain_energy(), 0., 1e-20);
         }
 
