@@ -105,6 +105,7 @@ def main():
                  (["--parameters", "text"], ["Horizon factor"]),
                  (["--parameters", "prm"], ["set Horizon factor", "subsection Nodes"]),
                  (["--parameters", "markdown"], ["Horizon factor", "|"]),
+                 (["--rules"], ["## Refused", "mirrored nodes have no cells", "## Without effect", "`Solver/End time`"]),
                  (["--check", arguments.example], ["7,680"] + checked),
                  (["--check", "listed.prm"] + values, checked)]
         (folder / "tensors.prm").write_text(TENSORS, encoding="utf-8")
