@@ -85,6 +85,8 @@ namespace
       {"Material/Failure criterion=maximum tensile stress", {"Material/Tensile strength=1e6"}},
       {"Material/Failure criterion=Mohr-Coulomb",
        {"Material/Tensile strength=1e6", "Material/Compressive strength=1e7"}},
+      {"Material/Failure criterion=Drucker-Prager",
+       {"Material/Tensile strength=1e6", "Material/Compressive strength=1e7"}},
       {"Material/Symmetry=cubic",
        {"Material/Young moduli=1e11", "Material/Poisson ratios=0.2", "Material/Shear moduli=4e10"}},
       {"Material/Symmetry=transversely isotropic",
