@@ -160,8 +160,9 @@ namespace perideal
       if (file.header().at("nodes") != nodes.n_global ||
           (rank == CheckpointFile::all && n_found != nodes.key.size()))
         throw Unreadable("the checkpoint belongs to another mesh");
-      for (auto &[name, array] : checkpoint.node_arrays)
+      for (auto &[name, named] : checkpoint.node_arrays)
         {
+          auto &array = named; // a lambda of C++17 takes no structured binding
           array.values.resize(std::size_t(array.width) * nodes.n_owned);
           file.visit_lines<double>(
             node_table(name), rank, [&](const std::uint64_t line, const double *value) {
@@ -179,8 +180,9 @@ namespace perideal
                     const unsigned int     rank,
                     Checkpoint            &checkpoint)
     {
-      for (auto &[name, array] : checkpoint.bond_arrays)
+      for (auto &[name, named] : checkpoint.bond_arrays)
         {
+          auto             &array = named; // a lambda of C++17 takes no structured binding
           std::vector<bool> is_here;
           file.visit_lines<std::uint64_t>(
             bond_table(name, "ends"), rank, [&](const std::uint64_t, const std::uint64_t *key) {
