@@ -127,7 +127,8 @@ TEST(Rules, RefuseWhateverIsRefusedOfAllPairs)
   std::set<std::string> said;
   unsigned int          pairs = 0, refused = 0;
   // Values that are wrong by themselves, and not beside others.
-  const std::vector<std::string> of_values = {"either by stress or by stretch", "no use for this"};
+  const std::vector<std::string> of_values = {
+    "either by stress or by stretch", "no use for this", "not a point of the scene"};
   for (std::size_t a = 0; a < choices.size(); ++a)
     for (std::size_t b = a; b < choices.size(); ++b)
       if (choices[a].path != choices[b].path || a == b)
