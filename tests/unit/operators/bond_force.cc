@@ -400,21 +400,6 @@ TEST(BondForce, WeighsFamiliesOfNothing)
   EXPECT_EQ(bonds->strain_energy(), 0.);
 }
 
-TEST(BondForce, OnlyMultipliersCanBeThoseAfterTheCut)
-{
-  ModelParameters parameters;
-  parameters.multipliers = Multipliers::after_the_cut;
-  for (const std::string model : {"bond based", "ordinary"})
-    {
-      parameters.model = model;
-      test::expect_input_error([&] { parameters.resolve(2); },
-                               {"Material/Multipliers", "after the cut", "intact"});
-    }
-  parameters.model = "extended ordinary";
-  parameters.form  = "consistent";
-  test::expect_input_error([&] { parameters.resolve(2); }, {"Material/Multipliers", "energy | paper"});
-}
-
 /// What has not moved is left out, and the forces are the same.
 TEST(BondForce, LeavesOutWhatIsAtRest)
 {
