@@ -13,12 +13,22 @@ namespace perideal
 
     /// Fields of bodies that move, and of bonds that break or are cut.
     const std::vector<std::string> fields_of_motion  = {"velocity"},
-                                   fields_of_failure = {"damage", "precracks"};
+                                   fields_of_failure = {"damage", "precracks", "state"};
 
     bool writes(const Scene &scene, const std::vector<std::string> &fields)
     {
       const auto names = scene.field_names();
       return std::find_first_of(names.begin(), names.end(), fields.begin(), fields.end()) != names.end();
+    }
+
+    bool shows_what_is_not_compared(const Scene &scene)
+    {
+      const ComparisonParameters &comparison = scene.comparison;
+      return (writes(scene, {"fem"}) && !comparison.fem) ||
+             (writes(scene, {"reference"}) && !comparison.reference) ||
+             (writes(scene, {"exact"}) && !comparison.has_exact()) ||
+             (writes(scene, {"error"}) && !comparison.fem && !comparison.reference &&
+              !comparison.has_exact());
     }
 
     /// Whether the models' bonds know only their own ends.
@@ -141,16 +151,21 @@ namespace perideal
     std::vector<Rule> result = {
       refuse(
         "Output/Fields",
-        "velocity with Solver/Name = quasi static | dynamic relaxation; velocity, damage, precracks with "
-        "Solver/Name = static",
+        "velocity with Solver/Name = quasi static | dynamic relaxation; velocity, damage, precracks, state "
+        "with Solver/Name = static",
         [](const Scene &s) {
           return (!s.solver.is_dynamic() && writes(s, fields_of_motion)) ||
                  (s.solver.is_linear_static() && writes(s, fields_of_failure));
         },
         "these fields belong to dynamics (velocity), or to dynamics, quasi static and dynamic relaxation "
-        "(damage, precracks)",
+        "(damage, precracks, state)",
         "other fields with Solver/Name = ...",
         "remove them, or set Solver/Name = dynamics"),
+      warn("Output/Fields",
+           "fem, reference, exact or error without Comparison/FEM, Reference or Exact u_x, ...",
+           shows_what_is_not_compared,
+           "a field shows a comparison that is not asked for and is left out: set Comparison/FEM (fem), "
+           "Reference (reference), Exact u_x, ... (exact), or any of them (error)"),
       refuse(
         "Output/Boundary stress",
         "Solver/Name = dynamics",
