@@ -34,8 +34,10 @@ namespace perideal
               "" :
               "; the preconditioner takes about as much again")
         << '\n';
-    out << "time step   " << short_number(largest_stable_step())
-        << " s is the largest stable one of explicit dynamics\n";
+    const double step = largest_stable_step();
+    out << "time step   "
+        << (std::isfinite(step) ? short_number(step) + " s is the largest stable one of explicit dynamics\n" :
+                                  std::string("none: every node is held, nothing is left that could move\n"));
     print_materials();
     if (!kind.has_motion && !kind.has_iterations)
       {

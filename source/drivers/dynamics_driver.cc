@@ -92,7 +92,11 @@ namespace perideal
       void choose_time_step()
       {
         const Timings::Scope scope(problem.run.timings, "setup");
-        stable_step         = this->largest_stable_step();
+        stable_step = this->largest_stable_step();
+        if (!std::isfinite(stable_step))
+          throw InputError("every node is held: nothing is left that could move")
+            .parameter("Boundary conditions")
+            .hint("hold less of the body, or take smaller cells, of which a boundary holds fewer");
         const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
         // A whole number of steps.
         const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));

@@ -57,7 +57,8 @@ namespace perideal
           }
       }
     // Twenty steps, since bodies with thin parts have few fast motions, which ten hardly see.
-    mass *= 0.25 * estimate_largest_eigenvalue(system, inverse, 20);
+    if (const double estimate = estimate_largest_eigenvalue(system, inverse, 20); estimate > 0)
+      mass *= 0.25 * estimate;
   }
 
   template <int dim>

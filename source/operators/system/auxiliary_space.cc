@@ -53,7 +53,8 @@ namespace perideal
   {
     // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000
     // cells. Few Lanczos steps do, for iterations hardly depend on it.
-    smoother.set_damping(1.3 / estimate_largest_eigenvalue(system, smoother, 5));
+    if (const double largest = estimate_largest_eigenvalue(system, smoother, 5); largest > 0)
+      smoother.set_damping(1.3 / largest);
 
     set_weights();
     coarse_source.reinit(fem.solution());

@@ -11,7 +11,7 @@ namespace perideal
   /**
    * Estimates the largest stable time step of explicit central differences, 2/omega_max [s], with
    * omega_max^2 the largest eigenvalue of M^-1 K from Lanczos steps, times 1.1
-   * because they underestimate it. Collective.
+   * because they underestimate it; infinite where nothing is free to move. Collective.
    * @param density by material id [kg/m^3]
    */
   template <int dim>
