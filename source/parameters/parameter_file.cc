@@ -5,6 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -33,6 +35,37 @@ namespace perideal
     std::string clean(const std::string &line)
     {
       return dealii::Utilities::trim(line.substr(0, line.find('#')));
+    }
+
+    /// Whether a line is text in UTF-8 without control characters, which files of results could hold.
+    bool is_text(const std::string &line)
+    {
+      try
+        {
+          static_cast<void>(nlohmann::json(line).dump());
+        }
+      catch (const nlohmann::json::type_error &)
+        {
+          return false;
+        }
+      return std::all_of(
+        line.begin(), line.end(), [](const unsigned char c) { return c >= ' ' || c == '\t'; });
+    }
+
+    /// The line with question marks for whatever is no plain character.
+    std::string legible(std::string line)
+    {
+      std::replace_if(
+        line.begin(), line.end(), [](const unsigned char c) { return c < ' ' || c >= 0x7f; }, '?');
+      return line;
+    }
+
+    InputError no_text(const std::string &line)
+    {
+      return InputError("the line has bytes that are no text")
+        .given(legible(line))
+        .allowed("text in UTF-8 without control characters")
+        .hint("type the line anew, or save the file in UTF-8");
     }
 
     /// True when @p line starts with @p keyword as a word; @p rest is what follows.
@@ -166,6 +199,11 @@ namespace perideal
           line = dealii::Utilities::trim(line.substr(0, line.size() - 1)) + " " + clean(next);
         if (line.empty())
           continue;
+        if (!is_text(line))
+          {
+            broken_lines.add(no_text(line).location(where));
+            line = legible(line);
+          }
         if (starts_with(line, "subsection", rest))
           {
             section.push_back(rest);
@@ -213,6 +251,8 @@ namespace perideal
 
   void ParameterFile::override_with(const std::string &text)
   {
+    if (!is_text(text))
+      throw no_text(text).location("--set");
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
       throw InputError("--set needs a parameter and a value")
