@@ -71,17 +71,18 @@ namespace perideal
         return;
       const double      whole   = lattice_family<dim>(problem.parameters.nodes.horizon_factor).size;
       const double      missing = 1. - problem.discretisation.families->statistics().mean / whole;
-      const std::string share   = "families lack " + short_number(std::round(100. * std::max(0., missing))) +
-                                " % of their bonds on average";
+      const double      percent = std::round(100. * missing);
+      const std::string share =
+        percent > 0 ? "families lack " + short_number(percent) + " % of their bonds on average, " : "";
       if (!model.model->corrects_surfaces && !model.compensates())
         result.push_back("the " + model.model->name + " model has no surface correction: " + share +
-                         ", errors of several per cent are usual");
+                         "errors of several per cent are usual");
       // Families of long cells have other numbers of members.
       if (problem.discretisation.families->statistics().max < whole &&
           problem.body.nodes->max_aspect_ratio < 1.5)
         result.push_back(
           "the body is nowhere two horizons thick: " + share +
-          ", and bending may be off by tens of per cent: take more cells across it, or Material/Model = "
+          "bending may be off by tens of per cent: take more cells across it, or Material/Model = "
           "extended ordinary with Form = consistent in statics");
     }
 
