@@ -5,8 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/LU>
 
 namespace perideal
 {
@@ -78,16 +77,27 @@ namespace perideal
   template <int dim>
   std::string RigidBodyMotions<dim>::describe(const std::vector<Coefficients> &motions)
   {
-    // Name every basic motion with a share in the free space.
+    // Of a rotation about an axis off the centre translations are a part, which are free by themselves only
+    // where a combination without any rotation is.
+    using Matrix = Eigen::Matrix<double, n_motions, Eigen::Dynamic>;
+    Matrix all(n_motions, motions.size());
+    for (std::size_t k = 0; k < motions.size(); ++k)
+      for (unsigned int a = 0; a < n_motions; ++a)
+        all(a, k) = motions[k][a];
+    Eigen::FullPivLU<Eigen::MatrixXd> rotations_of;
+    rotations_of.setThreshold(1e-6);
+    rotations_of.compute(all.bottomRows(n_motions - dim));
+    Matrix named = all;
+    named.topRows(dim).setZero();
+    if (rotations_of.dimensionOfKernel() > 0)
+      named.topRows(dim).leftCols(rotations_of.dimensionOfKernel()) =
+        (all * rotations_of.kernel()).topRows(dim);
     const char *translations[] = {"translation in x", "translation in y", "translation in z"};
     const char *rotations[]    = {"rotation about x", "rotation about y", "rotation about z"};
     std::string text;
     for (unsigned int basic = 0; basic < n_motions; ++basic)
       {
-        double share = 0;
-        for (const Coefficients &motion : motions)
-          share = std::max(share, std::abs(motion[basic]));
-        if (share > 1e-6)
+        if (named.row(basic).template lpNorm<Eigen::Infinity>() > 1e-6)
           text += (text.empty() ? "" : ", ") +
                   std::string(basic < dim ? translations[basic] : rotations[dim == 2 ? 2 : basic - dim]);
       }

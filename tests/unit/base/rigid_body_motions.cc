@@ -40,6 +40,18 @@ TEST(RigidBodyMotions, OneHeldPointLeavesTheRotationAboutIt)
   ASSERT_EQ(free.size(), 1u);
   EXPECT_NEAR(motions.value(free[0], {0.25, -0.5}).norm(), 0., 1e-12);
   EXPECT_GT(motions.value(free[0], {0.5, 0.5}).norm(), 0.1);
+  EXPECT_EQ(RigidBodyMotions<2>::describe(free), "rotation about z");
+}
+
+TEST(RigidBodyMotions, WhatIsHeldIsNotCalledFree)
+{
+  // A face of rollers off the centre: held along x, though turning about z moves the centre along x.
+  RigidBodyMotions<3> motions({0.5, 0.5, 0.5}, 1.);
+  for (const double x : {0., 1.})
+    for (const double z : {0., 1.})
+      motions.hold({x, 0., z}, 0);
+  EXPECT_EQ(RigidBodyMotions<3>::describe(motions.free_motions(MPI_COMM_SELF)),
+            "translation in y, translation in z, rotation about x, rotation about z");
 }
 
 TEST(RigidBodyMotions, ThreePointsHoldASolid)
