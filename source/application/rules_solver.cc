@@ -102,6 +102,11 @@ namespace perideal
         [](const Scene &s) { return s.dimension == 2 && !s.initial.velocity[2].empty(); },
         "a two-dimensional scene has no z component",
         "none in 2-D"),
+      warn(
+        "Solver/Tolerance",
+        "above 1e-4, with Solver/Name = static | quasi static | dynamic relaxation",
+        [](const Scene &s) { return !s.solver.is_dynamic() && s.solver.tolerance > 1e-4; },
+        "the error of displacements may be many times the tolerance: take 1e-4 or less"),
       of_dynamics("Boundary conditions/NAME/v_x, v_y, v_z", velocities_of_conditions),
       of_dynamics("Initial conditions/v_x, v_y, v_z", initial_velocities),
       of_steps("Checkpoints/Steps",
