@@ -8,6 +8,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace perideal
 {
@@ -16,18 +18,25 @@ namespace perideal
   namespace
   {
     /// Tells at the end whether the model was used within its range: laws that leave a plane body no
-    /// thickness, bonds with tensors that have turned further than they know.
+    /// thickness, bonds with tensors that have turned further than they know, linear statics of large strain.
     template <int dim>
     class ValidityRecorder : public Recorder<dim>
     {
     public:
-      explicit ValidityRecorder(const Problem<dim> &problem)
+      ValidityRecorder(const Problem<dim> &problem, const bool is_linear)
         : problem(problem)
+        , is_linear(is_linear)
       {
       }
 
       void finish(Json &summary) override
       {
+        if (is_linear)
+          {
+            if (problem.state.displacement.size() == problem.body.nodes->size())
+              find_largest_strain();
+            return;
+          }
         if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get());
             force != nullptr && dim == 2)
           {
@@ -49,6 +58,15 @@ namespace perideal
           text += "warning     the ends of bonds have moved against each other by up to " +
                   short_number(largest_motion) +
                   " times their length: bonds with tensors know small rotations only\n";
+        if (linear.strain > 0.02)
+          text += "warning     strains reach " + short_number(100. * linear.strain) +
+                  " %: linear statics holds for small " +
+                  "ones, to some per cent; check loads and units, or take Solver/Name = quasi static\n";
+        // Taken for small, a rotation by w stretches by w^2/2.
+        else if (linear.rotation > 0.2)
+          text += "warning     parts of the body turn by up to " + short_number(linear.rotation) +
+                  " rad: linear statics holds for small rotations, to some tenths; take Solver/Name = quasi "
+                  "static\n";
         return text;
       }
 
@@ -86,7 +104,47 @@ namespace perideal
         return dealii::Utilities::MPI::max(largest, problem.run.communicator);
       }
 
+      /// From the ends of bonds: their elongation, and how far they move across the bond, over its length
+      /// [-]. Collective.
+      void find_largest_strain()
+      {
+        const Families<dim> &families = *problem.discretisation.families;
+        const auto          &u        = problem.state.displacement;
+        // Not a number at nodes outside of the body, of which no bond counts here.
+        NodalVector displacement(families.make_partitioner(dim));
+        for (LocalIndex i = 0; i < families.n_owned(); ++i)
+          for (int d = 0; d < dim; ++d)
+            displacement.local_element(dim * i + d) =
+              i < u.size() ? u[i][d] : std::numeric_limits<double>::quiet_NaN();
+        displacement.update_ghost_values();
+        Linear found;
+        for (LocalIndex i = 0; i < std::min<std::size_t>(families.n_owned(), u.size()); ++i)
+          for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
+            {
+              const auto             bond = families.position[*j] - families.position[i];
+              dealii::Tensor<1, dim> moved;
+              for (int d = 0; d < dim; ++d)
+                moved[d] = displacement.local_element(dim * *j + d) - u[i][d];
+              const double along  = moved * bond / bond.norm_square();
+              const double across = (moved - along * bond).norm() / bond.norm();
+              if (std::abs(along) > found.strain)
+                found.strain = std::abs(along);
+              if (across > found.rotation)
+                found.rotation = across;
+            }
+        linear.strain   = dealii::Utilities::MPI::max(found.strain, problem.run.communicator);
+        linear.rotation = dealii::Utilities::MPI::max(found.rotation, problem.run.communicator);
+      }
+
+      /// The largest ones of a linear equilibrium.
+      struct Linear
+      {
+        double strain = 0, rotation = 0;
+      };
+
       const Problem<dim> &problem;
+      const bool          is_linear;
+      Linear              linear;
       GlobalIndex         n_without_thickness = 0;
       double              largest_motion      = 0;
     };
@@ -95,9 +153,7 @@ namespace perideal
   template <int dim>
   std::unique_ptr<Recorder<dim>> make_validity_recorder(Problem<dim> &problem, const RunKind &kind)
   {
-    if (!kind.has_motion && !kind.has_iterations)
-      return nullptr;
-    return std::make_unique<ValidityRecorder<dim>>(problem);
+    return std::make_unique<ValidityRecorder<dim>>(problem, !kind.has_motion && !kind.has_iterations);
   }
 
   PERIDEAL_INSTANTIATE(make_validity_recorder)
