@@ -9,6 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -96,6 +97,9 @@ namespace
 
 int main(int argc, char **argv)
 {
+  // A file that would grow beyond its limit cannot be written, like one on a full disk; it does not end the
+  // program.
+  std::signal(SIGXFSZ, SIG_IGN);
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   return run_guarded([&]() {
     act(CommandLine::parse(argc, argv), dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/hdf5.h>
+#include <perideal/base/links.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <hdf5.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -118,6 +120,8 @@ namespace perideal::hdf5
     Handle create_file(const std::string &path)
     {
       silence();
+      remove_link(path);
+      errno = 0;
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
       return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
@@ -129,6 +133,12 @@ namespace perideal::hdf5
     {
       if (!file.is_open())
         return;
+      // Memory has the limit of the sizes of files, too.
+      if (rlimit size{}; getrlimit(RLIMIT_FSIZE, &size) == 0)
+        {
+          size.rlim_cur = size.rlim_max;
+          setrlimit(RLIMIT_FSIZE, &size);
+        }
       void     *descriptor = nullptr;
       const int memory     = memfd_create("given up", 0);
       if (memory >= 0 && H5Fget_vfd_handle(file.get(), H5P_DEFAULT, &descriptor) >= 0)

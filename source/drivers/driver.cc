@@ -25,6 +25,7 @@ namespace perideal
   void Driver<dim>::run()
   {
     create_output_directory(problem.parameters.output_directory, problem.run.communicator);
+    const DirectoryLock lock(problem.parameters.output_directory, problem.run.communicator);
     problem.build();
     prepare_scene();
     if (problem.parameters.checkpoints.restart)
@@ -33,12 +34,12 @@ namespace perideal
     recorders = std::make_unique<Recorders<dim>>(problem, kind);
     announce();
     check_loads();
+    // Dynamics have moved on to their step, load steps have recorded theirs.
+    recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
+                    resumed.get());
     bool reached_end = false;
     try
       {
-        // Dynamics have moved on to their step, load steps have recorded theirs.
-        recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
-                        resumed.get());
         reached_end = advance();
       }
     catch (const std::exception &)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/base/links.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/files.h>
 #include <perideal/output/tensor_components.h>
@@ -11,10 +12,68 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <algorithm>
+#include <fstream>
 #include <sstream>
 
 namespace perideal
 {
+  namespace
+  {
+    /// What DataOut would write.
+    template <int dim>
+    struct OpenDataOut : public dealii::DataOut<dim>
+    {
+      using dealii::DataOut<dim>::get_dataset_names;
+      using dealii::DataOut<dim>::get_nonscalar_data_ranges;
+      using dealii::DataOut<dim>::get_patches;
+    };
+
+    /// Letters that one message takes.
+    constexpr std::size_t at_once = 1 << 28;
+
+    /// Writes the texts of all ranks, in their order, through the first one, to a file beside the path that
+    /// then takes its place. (MPI's own files print lines of their own where a disk is full, and tell no
+    /// error.) Collective. @throws ComputationError on all ranks.
+    void write_texts(const std::string &path, const std::string &text, MPI_Comm communicator)
+    {
+      using namespace dealii::Utilities::MPI;
+      const auto  sizes = all_gather(communicator, static_cast<std::uint64_t>(text.size()));
+      std::string problem;
+      if (this_mpi_process(communicator) != 0)
+        for (std::size_t k = 0; k < text.size(); k += at_once)
+          MPI_Send(text.data() + k, std::min(at_once, text.size() - k), MPI_CHAR, 0, 0, communicator);
+      else
+        {
+          const std::string part = path + ".part";
+          remove_link(part);
+          std::ofstream file(part, std::ios::binary);
+          file << text;
+          std::vector<char> received;
+          for (unsigned int rank = 1; rank < sizes.size(); ++rank)
+            for (std::size_t k = 0; k < sizes[rank]; k += at_once)
+              {
+                received.resize(std::min<std::size_t>(at_once, sizes[rank] - k));
+                MPI_Recv(
+                  received.data(), received.size(), MPI_CHAR, rank, 0, communicator, MPI_STATUS_IGNORE);
+                file.write(received.data(), received.size());
+              }
+          file.close();
+          try
+            {
+              finish_file(file.good(), part, path);
+            }
+          catch (const ComputationError &error)
+            {
+              problem = error.what();
+            }
+        }
+      problem = broadcast(communicator, problem, 0);
+      if (!problem.empty())
+        throw ComputationError(problem);
+    }
+  } // namespace
+
   template <int dim>
   FieldOutput<dim>::FieldOutput(const Mesh<dim>   &mesh,
                                 const Nodes<dim>  &nodes,
@@ -88,14 +147,7 @@ namespace perideal
   void FieldOutput<dim>::write(const unsigned int step, const double time)
   {
     const std::string name = filename(step);
-    try
-      {
-        write_vtu(directory + "/" + name, step, time);
-      }
-    catch (const dealii::ExceptionBase &)
-      {
-        throw ComputationError("cannot write '" + directory + "/" + name + "': is the disk full?");
-      }
+    write_vtu(directory + "/" + name, step, time);
     list_in_pvd(name, time);
     vectors.clear();
     scalars.clear();
@@ -111,7 +163,7 @@ namespace perideal
   template <int dim>
   void FieldOutput<dim>::write_vtu(const std::string &path, const unsigned int step, const double time) const
   {
-    dealii::DataOut<dim>          data_out;
+    OpenDataOut<dim>              data_out;
     dealii::DataOutBase::VtkFlags flags(time, step);
     // Equal runs leave equal files.
     flags.print_date_and_time = false;
@@ -128,7 +180,19 @@ namespace perideal
 
     // A constant needs the corners of its cell and nothing between.
     data_out.build_patches(1);
-    data_out.write_vtu_in_parallel(path, communicator);
+    std::ostringstream text;
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+    if (rank == 0)
+      dealii::DataOutBase::write_vtu_header(text, flags);
+    if (rank == 0 || !data_out.get_patches().empty())
+      dealii::DataOutBase::write_vtu_main(data_out.get_patches(),
+                                          data_out.get_dataset_names(),
+                                          data_out.get_nonscalar_data_ranges(),
+                                          flags,
+                                          text);
+    if (rank + 1 == dealii::Utilities::MPI::n_mpi_processes(communicator))
+      dealii::DataOutBase::write_vtu_footer(text);
+    write_texts(path, text.str(), communicator);
   }
 
   template <int dim>

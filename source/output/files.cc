@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/links.h>
 #include <perideal/output/files.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -49,14 +56,89 @@ namespace perideal
   void replace_file(const std::string &path, const std::string &text)
   {
     const std::string temporary = path + ".part";
-    std::ofstream     file(temporary, std::ios::binary);
+    remove_link(temporary);
+    std::ofstream file(temporary, std::ios::binary);
     file << text;
     file.close();
-    std::error_code error;
-    if (file)
-      std::filesystem::rename(temporary, path, error);
-    if (!file || error)
-      throw ComputationError("cannot write '" + path + "': is the disk full?");
+    finish_file(file.good(), temporary, path);
+  }
+
+  void finish_file(const bool is_written, const std::string &part, const std::string &path)
+  {
+    std::error_code error, none;
+    if (is_written)
+      std::filesystem::rename(part, path, error);
+    if (is_written && !error)
+      return;
+    std::filesystem::remove(part, none);
+    throw ComputationError("cannot write '" + path + "'" +
+                           (error ? " (" + error.message() + ")" : ": is the disk full?"));
+  }
+
+  namespace
+  {
+    std::string this_process()
+    {
+      char host[256] = "";
+      gethostname(host, sizeof(host) - 1);
+      return "process " + std::to_string(getpid()) + " on host " + host;
+    }
+
+    /// Whether the path still leads to the open file, which its former holder may have removed.
+    bool leads_to(const std::string &path, const int descriptor)
+    {
+      struct stat there, open;
+      return stat(path.c_str(), &there) == 0 && fstat(descriptor, &open) == 0 &&
+             there.st_ino == open.st_ino && there.st_dev == open.st_dev;
+    }
+  } // namespace
+
+  DirectoryLock::DirectoryLock(const std::string &directory, MPI_Comm communicator)
+    : path(directory + "/perideal.lock")
+  {
+    std::string holder = dealii::Utilities::MPI::this_mpi_process(communicator) == 0 ? take() : "";
+    holder             = dealii::Utilities::MPI::broadcast(communicator, holder, 0);
+    if (!holder.empty())
+      throw InputError("another run writes its results into this directory")
+        .parameter("Output directory")
+        .given(directory)
+        .allowed("a directory that no other run is using")
+        .hint(holder + " holds perideal.lock there: wait for its end, or take another directory");
+  }
+
+  std::string DirectoryLock::take()
+  {
+    while (true)
+      {
+        descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+        if (descriptor < 0)
+          return "";
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+          {
+            const bool    is_held = errno == EWOULDBLOCK;
+            std::ifstream file(path);
+            std::string   holder;
+            std::getline(file, holder);
+            close(descriptor);
+            descriptor = -1;
+            return !is_held ? "" : holder.empty() ? "another process" : holder;
+          }
+        if (leads_to(path, descriptor))
+          break;
+        close(descriptor);
+      }
+    const std::string text = this_process() + '\n';
+    if (ftruncate(descriptor, 0) != 0 || pwrite(descriptor, text.data(), text.size(), 0) < 0)
+      return ""; // The lock holds without a name.
+    return "";
+  }
+
+  DirectoryLock::~DirectoryLock()
+  {
+    if (descriptor < 0)
+      return;
+    unlink(path.c_str());
+    close(descriptor);
   }
 
   void write_csv_header(std::ostream &out, const std::vector<std::string> &names)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/hdf5.h>
+#include <perideal/base/links.h>
 #include <perideal/output/files.h>
 #include <perideal/output/history.h>
 
@@ -42,7 +43,15 @@ namespace perideal
     earlier.has_columns = !column_names.empty();
     columns.resize(column_names.size());
     if (is_writer)
-      csv.open(directory + "/history.csv", earlier.has_columns ? std::ios::app : std::ios::out);
+      {
+        remove_link(directory + "/history.csv");
+        csv.open(directory + "/history.csv", earlier.has_columns ? std::ios::app : std::ios::out);
+      }
+    if (!broadcast(communicator, csv.is_open() || !is_writer, 0))
+      throw InputError("history.csv cannot be written in the output directory")
+        .parameter("Output directory")
+        .given(directory)
+        .allowed("a directory in which you may write, without a directory or a protected file of this name");
   }
 
   void History::refuse(const std::string &problem) const
@@ -154,15 +163,27 @@ namespace perideal
       return;
     csv.close();
 
-    hdf5::Writer file(directory + "/history.h5", MPI_COMM_SELF);
-    const auto   write = [&](std::string name, const std::vector<double> &values) {
-      std::replace(name.begin(), name.end(), '/', '|');
-      file.write(name, values, {values.size()});
-    };
-    for (std::size_t column = 0; column < columns.size(); ++column)
-      write(column_names[column], columns[column]);
-    for (const auto &[name, values] : series)
-      write(name, values);
-    file.close();
+    // Beside the file there, which stays whole until this one is.
+    const std::string path = directory + "/history.h5", part = path + ".part";
+    bool              is_written = false;
+    try
+      {
+        hdf5::Writer file(part, MPI_COMM_SELF);
+        const auto   write = [&](std::string name, const std::vector<double> &values) {
+          std::replace(name.begin(), name.end(), '/', '|');
+          file.write(name, values, {values.size()});
+        };
+        for (std::size_t column = 0; column < columns.size(); ++column)
+          write(column_names[column], columns[column]);
+        for (const auto &item : series)
+          write(item.first, item.second);
+        file.close();
+        is_written = true;
+      }
+    catch (const ComputationError &)
+      {
+        // The name that the user knows is told.
+      }
+    finish_file(is_written, part, path);
   }
 } // namespace perideal

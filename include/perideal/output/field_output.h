@@ -28,7 +28,7 @@ namespace perideal
 
   /**
    * Writes nodal fields on the cells of the user's own mesh, for ParaView: one
-   * compressed .vtu a step, written by all ranks together, and solution.pvd,
+   * compressed .vtu a step, with the cells of all ranks, and solution.pvd,
    * which lists the steps with their times and is valid at any moment.
    *
    * A .vtu holds single precision, for visualisation; history and

@@ -24,6 +24,33 @@ namespace perideal
    */
   void replace_file(const std::string &path, const std::string &text);
 
+  /// Puts a file that was written beside another in its place, or removes it where it could not be written.
+  /// For one rank. @throws ComputationError when there is no new file.
+  void finish_file(const bool is_written, const std::string &part, const std::string &path);
+
+  /**
+   * Keeps other runs out of a directory for as long as it lives. The operating system ends it with the
+   * process, however that ends; a file perideal.lock that is left behind keeps nobody out. Where the file
+   * system has no locks, nobody is kept out.
+   */
+  class DirectoryLock
+  {
+  public:
+    /// Collective. @throws InputError on all ranks when another run has the directory, naming its process.
+    DirectoryLock(const std::string &directory, MPI_Comm communicator);
+    ~DirectoryLock();
+
+    DirectoryLock(const DirectoryLock &)            = delete;
+    DirectoryLock &operator=(const DirectoryLock &) = delete;
+
+  private:
+    /// Rank 0: returns who holds the lock, if not this object.
+    std::string take();
+
+    std::string path;
+    int         descriptor = -1;
+  };
+
   /// One line of a CSV file of texts, quoted where they hold a comma or a quote (RFC 4180).
   void write_csv_header(std::ostream &out, const std::vector<std::string> &names);
 

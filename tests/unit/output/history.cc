@@ -100,7 +100,7 @@ TEST(History, AFullDiskIsToldOnceAndTheRowsStay)
     history.add_series("residuals", std::vector<double>(100000, 1.));
     if (is_first_rank())
       {
-        std::filesystem::create_symlink("/dev/full", directory + "/history.h5");
+        std::filesystem::create_symlink("/dev/full", directory + "/history.h5.part");
         EXPECT_THROW(history.finish(), ComputationError);
       }
   }
