@@ -91,10 +91,11 @@ namespace perideal
       std::make_unique<Checkpoint>(read_checkpoint(parameters.output_directory, checkpoint_nodes(problem)));
     compare_scenes(resumed->get<Json>("parameters"), problem.run.context.parameters);
     const double time = resumed->get<double>("time");
-    if (kind.has_motion && !(time < parameters.solver.end_time))
-      throw InputError("the checkpoint is at the end already")
+    // A run that was killed at its end has yet to write its results; times are sums of steps.
+    if (kind.has_motion && !(time <= parameters.solver.end_time * (1. + 1e-9)))
+      throw InputError("the checkpoint is beyond the end already")
         .parameter("Solver/End time")
-        .allowed("more than " + short_number(time) + " s");
+        .allowed(short_number(time) + " s or more");
     problem.run.screen << "restart     from " << (kind.has_motion ? "step " : "load step ")
                        << resumed->get<std::uint64_t>("step") << ", t = " << short_number(time)
                        << (kind.has_motion ? " s" : "") << std::endl;
