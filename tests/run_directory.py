@@ -53,7 +53,7 @@ subsection Output
   set Frames = 2
 end
 """
-FOREIGN = ("HDF5-DIAG", "terminate called", "Stacktrace", "An error occurred", "internal error")
+FOREIGN = ("HDF5-DIAG", "terminate called", "Stacktrace", "An error occurred", "internal error", "MPI_ABORT", "mca_")
 
 
 class Failure(Exception):
@@ -216,6 +216,16 @@ def check_full_disk(make):
     expect(len(hit & {"history.csv", "solution_0001.vtu", "history.h5", "checkpoint_0.h5", "checkpoint_1.h5"}) >= 2, f"only {hit} was hit")
 
 
+def check_full_disk_of_ranks(make):
+    """A full disk is told once by two ranks, too, and neither waits for the other."""
+    for name in ("history.csv", "history.h5.part", "solution.pvd.part", "solution_0001.vtu.part", "summary.json.part", "checkpoint.json.part"):
+        case = make("ranks_" + name)
+        case.output.mkdir()
+        (case.output / name).symlink_to("/dev/full")
+        status, _, err = case.run("Checkpoints/Steps=5", ranks=2)
+        expect(status == 2 and name.replace(".part", "") in err, f"{name}: exit status {status}\n{err}")
+
+
 def check_lost_history(make):
     """A restart without its history, or with another one."""
     case = make("history")
@@ -240,7 +250,7 @@ def check_lost_history(make):
         expect(case.end() == end, f"history {name}: another end")
 
 
-CHECKS = (check_two_runs, check_links, check_in_the_way, check_full_disk, check_lost_history)
+CHECKS = (check_two_runs, check_links, check_in_the_way, check_full_disk, check_full_disk_of_ranks, check_lost_history)
 
 
 def main():

@@ -267,24 +267,15 @@ namespace perideal
     });
     if (!complaint.empty())
       throw ComputationError("cannot write '" + path + "': is the disk full?");
-    std::string problem;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-        {
-          replace_file(directory + "/checkpoint.json",
-                       Json{{"file", name},
-                            {"step", checkpoint.header.at("step")},
-                            {"time", checkpoint.header.at("time")},
-                            {"checksum", sum}}
-                         .dump(1));
-        }
-      catch (const ComputationError &error)
-        {
-          problem = error.what();
-        }
-    problem = dealii::Utilities::MPI::broadcast(communicator, problem, 0);
-    if (!problem.empty())
-      throw ComputationError(problem);
+    write_together(communicator, [&] {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        replace_file(directory + "/checkpoint.json",
+                     Json{{"file", name},
+                          {"step", checkpoint.header.at("step")},
+                          {"time", checkpoint.header.at("time")},
+                          {"checksum", sum}}
+                       .dump(1));
+    });
   }
 
   Checkpoint read_checkpoint(const std::string &directory, const CheckpointNodes &nodes)

@@ -38,14 +38,14 @@ namespace perideal
     void write_texts(const std::string &path, const std::string &text, MPI_Comm communicator)
     {
       using namespace dealii::Utilities::MPI;
-      const auto  sizes = all_gather(communicator, static_cast<std::uint64_t>(text.size()));
-      std::string problem;
+      const auto        sizes      = all_gather(communicator, static_cast<std::uint64_t>(text.size()));
+      const std::string part       = path + ".part";
+      bool              is_written = true;
       if (this_mpi_process(communicator) != 0)
         for (std::size_t k = 0; k < text.size(); k += at_once)
           MPI_Send(text.data() + k, std::min(at_once, text.size() - k), MPI_CHAR, 0, 0, communicator);
       else
         {
-          const std::string part = path + ".part";
           remove_link(part);
           std::ofstream file(part, std::ios::binary);
           file << text;
@@ -59,18 +59,12 @@ namespace perideal
                 file.write(received.data(), received.size());
               }
           file.close();
-          try
-            {
-              finish_file(file.good(), part, path);
-            }
-          catch (const ComputationError &error)
-            {
-              problem = error.what();
-            }
+          is_written = file.good();
         }
-      problem = broadcast(communicator, problem, 0);
-      if (!problem.empty())
-        throw ComputationError(problem);
+      write_together(communicator, [&] {
+        if (this_mpi_process(communicator) == 0)
+          finish_file(is_written, part, path);
+      });
     }
   } // namespace
 
@@ -201,12 +195,14 @@ namespace perideal
     if (steps == OutputSteps::single)
       written.clear();
     written.emplace_back(time, name);
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
-      return;
-    std::ostringstream record;
-    record.precision(12);
-    dealii::DataOutBase::write_pvd_record(record, written);
-    replace_file(directory + "/solution.pvd", record.str());
+    write_together(communicator, [&] {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+        return;
+      std::ostringstream record;
+      record.precision(12);
+      dealii::DataOutBase::write_pvd_record(record, written);
+      replace_file(directory + "/solution.pvd", record.str());
+    });
   }
 
   PERIDEAL_INSTANTIATE_CLASS(FieldOutput)

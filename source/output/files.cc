@@ -63,6 +63,22 @@ namespace perideal
     finish_file(file.good(), temporary, path);
   }
 
+  void write_together(MPI_Comm communicator, const std::function<void()> &write)
+  {
+    std::string problem;
+    try
+      {
+        write();
+      }
+    catch (const ComputationError &error)
+      {
+        problem = error.what();
+      }
+    problem = dealii::Utilities::MPI::broadcast(communicator, problem, 0);
+    if (!problem.empty())
+      throw ComputationError(problem);
+  }
+
   void finish_file(const bool is_written, const std::string &part, const std::string &path)
   {
     std::error_code error, none;

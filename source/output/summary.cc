@@ -34,8 +34,11 @@ namespace perideal
             not_finite += (not_finite.empty() ? "" : ", ") + number;
         if (!not_finite.empty())
           written["status"] = "failed";
-        replace_file(path, written.dump(2, ' ', false, mend) + "\n");
       }
+    write_together(communicator, [&] {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        replace_file(path, written.dump(2, ' ', false, mend) + "\n");
+    });
     not_finite = dealii::Utilities::MPI::broadcast(communicator, not_finite, 0);
     if (!not_finite.empty())
       throw ComputationError("numbers of the result are not finite: " + not_finite + ", null in '" + path +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/versions.h>
+#include <perideal/output/files.h>
 #include <perideal/output/summary.h>
 #include <perideal/problem/description.h>
 #include <perideal/problem/output_fields.h>
@@ -59,7 +60,7 @@ namespace perideal
     history->add("time [s]", step.time);
     for (auto &recorder : recorders)
       recorder->record(step, {*history, result});
-    history->end_row();
+    write_together(problem.run.communicator, [&] { history->end_row(); });
     last_time = step.time;
   }
 
@@ -107,7 +108,7 @@ namespace perideal
         write_last_fields();
       for (auto &recorder : recorders)
         recorder->finish(result);
-      history->finish();
+      write_together(run.communicator, [&] { history->finish(); });
     }
     Json summary          = {{"status", name[static_cast<unsigned int>(report.status)]},
                              {"command", run.context.command}};

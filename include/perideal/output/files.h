@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ namespace perideal
    * @throws ComputationError when the file cannot be written.
    */
   void replace_file(const std::string &path, const std::string &text);
+
+  /// Lets all ranks call what writes on the first one, and throws on all ranks what that throws. Collective.
+  /// @throws ComputationError
+  void write_together(MPI_Comm communicator, const std::function<void()> &write);
 
   /// Puts a file that was written beside another in its place, or removes it where it could not be written.
   /// For one rank. @throws ComputationError when there is no new file.
