@@ -67,6 +67,18 @@ namespace perideal
         if (excess[k] <= 0 && first_number + k != self)
           family.push_back(first_number + k);
     }
+    /// Keeps the members of which @p belongs holds, without a branch: every second candidate may go.
+    template <typename Predicate>
+    void keep_if(std::vector<LocalIndex> &members, const Predicate &belongs)
+    {
+      std::size_t n_kept = 0;
+      for (const LocalIndex j : members)
+        {
+          members[n_kept] = j;
+          n_kept += belongs(j) ? 1 : 0;
+        }
+      members.resize(n_kept);
+    }
   } // namespace
 
   template <int dim>
@@ -148,17 +160,21 @@ namespace perideal
   template <int dim>
   void Families<dim>::keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const
   {
-    if (shape.empty() && cell_radius.empty())
-      return;
-    const auto is_outside = [&](const LocalIndex j) {
-      const auto bond = position[j] - position[i];
-      if (!shape.empty())
-        return (shape[i] * bond).norm_square() > 1. && (shape[j] * bond).norm_square() > 1.;
-      const double length = bond.norm();
-      return (length >= horizon[i] + cell_radius[j] || volume_rule->share(*this, i, j) == 0) &&
-             (length >= horizon[j] + cell_radius[i] || volume_rule->share(*this, j, i) == 0);
-    };
-    members.erase(std::remove_if(members.begin(), members.end(), is_outside), members.end());
+    const dealii::Point<dim> centre = position[i];
+    if (!shape.empty())
+      {
+        const dealii::Tensor<2, dim> own = shape[i];
+        keep_if(members, [&](const LocalIndex j) DEAL_II_ALWAYS_INLINE {
+          const dealii::Tensor<1, dim> bond = position[j] - centre;
+          return (own * bond).norm_square() <= 1. || (shape[j] * bond).norm_square() <= 1.;
+        });
+      }
+    else if (!cell_radius.empty())
+      keep_if(members, [&](const LocalIndex j) {
+        const double length = position[j].distance(centre);
+        return (length < horizon[i] + cell_radius[j] && volume_rule->share(*this, i, j) != 0) ||
+               (length < horizon[j] + cell_radius[i] && volume_rule->share(*this, j, i) != 0);
+      });
   }
 
   template <int dim>
