@@ -100,6 +100,7 @@ namespace perideal
         step.search.iterations = result.iterations;
         step.search.converged  = result.converged;
         step.search.residuals  = result.residuals;
+        is_indefinite          = result.indefinite;
         problem.store_displacement();
       }
 
@@ -108,14 +109,19 @@ namespace perideal
       {
         if (step.search.converged)
           return;
+        const std::string advice =
+          is_indefinite ?
+            "the operator is not positive definite: some motion of the nodes sets energy free. "
+            "Where cell sizes jump, take Quadrature/Scheme = partial volume; else Material/Model = "
+            "extended ordinary, or another Nodes/Horizon factor" :
+            "see the residuals in history.h5; raise Solver/Maximum iterations, enlarge "
+            "Nodes/Horizon factor, take another Solver/Preconditioner, or check the scene with "
+            "--check";
         throw ComputationError(
           "the linear solver (" + solver->name() + ") stopped at t = " + short_number(step.time) + " after " +
           std::to_string(step.search.iterations) + " iterations at a relative residual of " +
           short_number(step.search.residuals.back()) + ", not at " +
-          short_number(problem.parameters.solver.tolerance) +
-          "\n  advice: see the residuals in history.h5; raise Solver/Maximum iterations, enlarge "
-          "Nodes/Horizon "
-          "factor, take another Solver/Preconditioner, or check the scene with --check");
+          short_number(problem.parameters.solver.tolerance) + "\n  advice: " + advice);
       }
 
       /// Energies and supports of the equilibrium.
@@ -131,6 +137,8 @@ namespace perideal
           step.energy_error = (balance.external_work - balance.strain_energy) / balance.external_work;
       }
 
+      /// Whether the last solve met a motion that sets energy free.
+      bool                                  is_indefinite = false;
       std::unique_ptr<Preconditioning<dim>> preconditioning;
       std::unique_ptr<LinearSolver<dim>>    solver;
       nlohmann::ordered_json                solver_report;

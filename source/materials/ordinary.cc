@@ -35,8 +35,25 @@ namespace perideal
     // theta = sum_j wh |xi| e V_j                                  (XOSB eq. 26)
     // t     = kappa wh |xi| theta + 2 mu wd (e - theta |xi|/dim)   (XOSB eq. 17)
     // with wd = (dim+2)/2 wh, so that the two theta terms share one weight.
+    //
+    // The energy is half the sum of kappa theta^2 and (dim+2) mu (sum_j wh e^2 V_j - theta^2/dim). Of all e
+    // with one theta, e ~ |xi| has the least: both together are positive for
+    //
+    //     kappa + mu (dim+2)/dim (1/r - 1) > 0,    r = 1/dim sum_j wh |xi|^2 V_j.
+    //
+    // r is about 1 in a whole family and less at surfaces. Where cells grow fast, small nodes have many
+    // members beyond their own horizon, and r may be a hundred: such families get the weights of a whole one.
     const double mu = family.shear_modulus, kappa = family.bulk_modulus;
     spherical_weights(family, influence, thickness, weights);
+    double whole = 0;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      whole += weights[j] * family.length_square[j] * family.volume[j] / dim;
+    if (kappa + mu * (dim + 2) / dim * (1. / whole - 1.) <= 0)
+      {
+        for (double &weight : weights)
+          weight /= whole;
+        coefficients.report.fallback = true;
+      }
     for (LocalIndex j = 0; j < family.size; ++j)
       {
         coefficients.sum[0][j] = weights[j] * family.volume[j];

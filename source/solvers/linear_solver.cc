@@ -38,9 +38,14 @@ namespace perideal
         result.residuals.push_back(residual / first);
         if (progress)
           progress(iteration, residual / first);
-        // NaN, or far above where it began: the iteration diverges.
-        return residual <= 1e6 * first ? dealii::SolverControl::success : dealii::SolverControl::failure;
+        // NaN, or far above where it began: the iteration diverges. CG of an operator that is not positive
+        // definite may come down all the same, if it does not rise.
+        const double limit = result.indefinite ? 1e2 : 1e6;
+        return residual <= limit * first ? dealii::SolverControl::success : dealii::SolverControl::failure;
       }
+
+      /// Looks at the length of a step of CG, the inverse of the operator's curvature along it.
+      void judge_step(const double length) { result.indefinite = result.indefinite || length < 0; }
 
     private:
       LinearSolve                                                 &result;
@@ -127,6 +132,7 @@ namespace perideal
       {
         dealii::SolverCG<NodalVector> cg(control);
         cg.connect(monitor);
+        cg.connect_coefficients_slot([&](const double length, const double) { monitor.judge_step(length); });
         cg.solve(BalancedSystem<dim>{system, null_space}, solution, source, projected);
       }
 

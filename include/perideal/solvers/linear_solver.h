@@ -31,6 +31,8 @@ namespace perideal
   {
     unsigned int iterations = 0;
     bool         converged  = false;
+    /// CG met a direction along which the operator is not positive: some motion sets energy free.
+    bool indefinite = false;
     /// Residual norms over the first one, by iteration.
     std::vector<double> residuals;
   };
