@@ -26,6 +26,15 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<2, dim>>
+  ElasticFem<dim>::gradients_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const
+  {
+    Assert(is_on_mesh_itself(), dealii::ExcMessage("the cells are those of the mesh itself only"));
+    AssertDimension(point_of_cell.size(), body.triangulation.n_active_cells());
+    return perideal::gradients_in_cells<dim>(space.geometry, space.unknowns, displacement, point_of_cell);
+  }
+
+  template <int dim>
   dealii::Tensor<1, dim> ElasticFem<dim>::reaction(const dealii::types::boundary_id boundary) const
   {
     // Forces at hanging nodes belong to the nodes they hang on.

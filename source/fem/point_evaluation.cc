@@ -4,6 +4,7 @@
 #include <perideal/fem/point_evaluation.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/matrix_free/fe_point_evaluation.h>
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
@@ -154,6 +155,30 @@ namespace perideal
     return result;
   }
 
+  template <int dim>
+  std::vector<dealii::Tensor<2, dim>> gradients_in_cells(const dealii::Mapping<dim>            &mapping,
+                                                         const dealii::DoFHandler<dim>         &unknowns,
+                                                         const NodalVector                     &displacement,
+                                                         const std::vector<dealii::Point<dim>> &point_of_cell)
+  {
+    dealii::FEPointEvaluation<dim, dim> evaluation(mapping, unknowns.get_fe(), dealii::update_gradients);
+    std::vector<double>                 values(unknowns.get_fe().n_dofs_per_cell());
+    std::vector<dealii::Tensor<2, dim>> result(point_of_cell.size());
+    for (const auto &cell : unknowns.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int                    index      = cell->active_cell_index();
+          const std::vector<dealii::Point<dim>> unit_point = {
+            mapping.transform_real_to_unit_cell(cell, point_of_cell[index])};
+          cell->get_dof_values(displacement, values.begin(), values.end());
+          evaluation.reinit(cell, dealii::make_array_view(unit_point));
+          evaluation.evaluate(dealii::make_array_view(values), dealii::EvaluationFlags::gradients);
+          result[index] = evaluation.get_gradient(0);
+        }
+    return result;
+  }
+
   PERIDEAL_INSTANTIATE_CLASS(PointEvaluation)
+  PERIDEAL_INSTANTIATE(gradients_in_cells)
   PERIDEAL_INSTANTIATE(evaluate_in_cells)
 } // namespace perideal

@@ -19,10 +19,10 @@ namespace perideal
     }
   } // namespace
 
-  template <int dim>
+  template <int dim, typename Value>
   FieldErrors field_errors(const Nodes<dim>                            &nodes,
-                           const std::vector<dealii::Tensor<1, dim>>   &field,
-                           const std::vector<dealii::Tensor<1, dim>>   &reference,
+                           const std::vector<Value>                    &field,
+                           const std::vector<Value>                    &reference,
                            const std::function<bool(const LocalIndex)> &is_given)
   {
     AssertDimension(field.size(), nodes.size());
@@ -33,11 +33,11 @@ namespace perideal
       {
         if (is_given && is_given(i))
           continue;
-        const dealii::Tensor<1, dim> error = field[i] - reference[i];
-        sums[0] += nodes.volume[i] * error.norm_square();
-        sums[1] += nodes.volume[i] * reference[i].norm_square();
-        maxima[0] = std::max(maxima[0], visible(error.norm()));
-        maxima[1] = std::max(maxima[1], visible(reference[i].norm()));
+        const double error = (field[i] - reference[i]).norm(), whole = reference[i].norm();
+        sums[0] += nodes.volume[i] * error * error;
+        sums[1] += nodes.volume[i] * whole * whole;
+        maxima[0] = std::max(maxima[0], visible(error));
+        maxima[1] = std::max(maxima[1], visible(whole));
       }
     dealii::Utilities::MPI::sum(sums, nodes.communicator, sums);
     dealii::Utilities::MPI::max(maxima, nodes.communicator, maxima);
@@ -64,7 +64,10 @@ namespace perideal
     return result;
   }
 
-  PERIDEAL_INSTANTIATE(field_errors)
+  template struct Instance<&field_errors<2, dealii::Tensor<1, 2>>>;
+  template struct Instance<&field_errors<3, dealii::Tensor<1, 3>>>;
+  template struct Instance<&field_errors<2, dealii::SymmetricTensor<2, 3>>>;
+  template struct Instance<&field_errors<3, dealii::SymmetricTensor<2, 3>>>;
   PERIDEAL_INSTANTIATE(profile_errors)
 
   // The number 2 of std::array<double, 2> is no int, so it must be said here.

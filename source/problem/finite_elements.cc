@@ -16,6 +16,18 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<ElasticState> states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+  {
+    const Nodes<dim> &nodes  = *problem.body.nodes;
+    const auto        solids = problem.discretisation.compared_solids(problem.body, *problem.body.mesh);
+    std::vector<ElasticState> result;
+    for (const auto &gradient :
+         in_cells_of_nodes(nodes, [&](const auto &points) { return fem.gradients_in_cells(points); }))
+      result.push_back(elastic_state<dim>(symmetrize(gradient), solids.at(nodes.material[result.size()])));
+    return result;
+  }
+
+  template <int dim>
   NodalField<dim> reference_at_nodes(Problem<dim> &problem)
   {
     const ComparisonParameters &comparison = problem.parameters.comparison;
@@ -42,5 +54,6 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE(at_nodes)
+  PERIDEAL_INSTANTIATE(states_of_fem)
   PERIDEAL_INSTANTIATE(reference_at_nodes)
 } // namespace perideal

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
-#include <perideal/boundary/nodal_strain.h>
-#include <perideal/materials/elastic_state.h>
-#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/problem/elastic_states.h>
 #include <perideal/problem/output_fields.h>
 #include <perideal/problem/problem.h>
 
@@ -14,11 +12,11 @@ namespace perideal
 {
   namespace
   {
-    /// Whether a field is made from the face gradient of the body.
+    /// What a field is made from.
     enum class Source
     {
       state,
-      gradient
+      strain
     };
 
     template <int dim>
@@ -61,45 +59,6 @@ namespace perideal
       output.add_scalar(name, values);
     }
 
-    /// Green's strain in space, of linear laws the small strain.
-    template <int dim>
-    dealii::SymmetricTensor<2, 3> strain_of(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &H)
-    {
-      const dealii::SymmetricTensor<2, dim> in_plane =
-        law.is_linear() ? symmetrize(H) : symmetrize(H + 0.5 * transpose(H) * H);
-      dealii::SymmetricTensor<2, 3> result;
-      for (int i = 0; i < dim; ++i)
-        for (int j = i; j < dim; ++j)
-          result[i][j] = in_plane[i][j];
-      const double across = law.thickness_stretch(H);
-      if (dim == 2)
-        result[2][2] = law.is_linear() ? across - 1. : 0.5 * (across * across - 1.);
-      return result;
-    }
-
-    /// Strain and stress of the nodes.
-    template <int dim>
-    std::vector<ElasticState> states_of(const Problem<dim> &problem)
-    {
-      std::vector<ElasticState> result;
-      if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get()))
-        {
-          for (const auto &H : force->gradients())
-            {
-              const HyperelasticLaw<dim> &law = force->law(result.size());
-              result.push_back({strain_of(law, H), law.cauchy_stress(H), law.energy(H)});
-            }
-          return result;
-        }
-      for (const auto &strain : compute_nodal_strain(*problem.discretisation.gradient,
-                                                     *problem.loading.supports->face_values(),
-                                                     *problem.body.nodes,
-                                                     problem.state.displacement))
-        result.push_back(
-          elastic_state<dim>(strain, problem.body.solids.at(problem.body.nodes->material[result.size()])));
-      return result;
-    }
-
     template <int dim>
     void add_state_tensor(const Problem<dim>           &problem,
                           const std::string            &name,
@@ -107,7 +66,7 @@ namespace perideal
                           FieldOutput<dim>                            &output)
     {
       std::vector<dealii::SymmetricTensor<2, 3>> values;
-      for (const ElasticState &state : states_of(problem))
+      for (const ElasticState &state : elastic_states(problem))
         values.push_back(state.*tensor);
       output.add_tensor(name, values);
     }
@@ -119,7 +78,7 @@ namespace perideal
                           FieldOutput<dim>   &output)
     {
       std::vector<double> values;
-      for (const ElasticState &state : states_of(problem))
+      for (const ElasticState &state : elastic_states(problem))
         values.push_back(value(state));
       output.add_scalar(name, values);
     }
@@ -177,15 +136,15 @@ namespace perideal
           }}},
          {"strain",
           {[](Scene s, Output o) { add_state_tensor(s, "strain", &ElasticState::strain, o); },
-           Source::gradient}},
+           Source::strain}},
          {"stress",
           {[](Scene s, Output o) { add_state_tensor(s, "stress", &ElasticState::stress, o); },
-           Source::gradient}},
+           Source::strain}},
          {"von mises",
           {[](Scene s, Output o) {
              add_state_scalar(s, "von_mises_stress", std::mem_fn(&ElasticState::von_mises), o);
            },
-           Source::gradient}},
+           Source::strain}},
          {"principal stress",
           {[](Scene s, Output o) {
              add_state_scalar(
@@ -193,17 +152,17 @@ namespace perideal
              add_state_scalar(
                s, "smallest_principal_stress", std::mem_fn(&ElasticState::smallest_principal), o);
            },
-           Source::gradient}},
+           Source::strain}},
          {"triaxiality",
           {[](Scene s, Output o) {
              add_state_scalar(s, "triaxiality", std::mem_fn(&ElasticState::triaxiality), o);
            },
-           Source::gradient}},
+           Source::strain}},
          {"strain energy density",
           {[](Scene s, Output o) {
              add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);
            },
-           Source::gradient}},
+           Source::strain}},
          {"state", {[](Scene s, Output o) { add_lasting_state(s, o); }}},
          {"volume", {[](Scene s, Output o) { o.add_scalar("volume", s.body.nodes->volume); }}},
          {"horizon", {[](Scene s, Output o) { o.add_scalar("horizon", s.body.nodes->horizon); }}},
@@ -233,10 +192,10 @@ namespace perideal
     return fields<2>().names();
   }
 
-  bool needs_gradient(const std::vector<std::string> &names)
+  bool needs_strain(const std::vector<std::string> &names)
   {
     return std::any_of(names.begin(), names.end(), [](const std::string &name) {
-      return fields<2>().get(name).source == Source::gradient;
+      return fields<2>().get(name).source == Source::strain;
     });
   }
 

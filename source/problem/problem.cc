@@ -3,7 +3,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/problem/finite_elements.h>
 #include <perideal/problem/free_motions.h>
-#include <perideal/problem/output_fields.h>
 #include <perideal/problem/problem.h>
 
 namespace perideal
@@ -46,9 +45,7 @@ namespace perideal
     const ModelParameters &model  = parameters.model;
     const auto             is_cut = failure.precrack_test();
     discretisation.find_parts(body, is_cut);
-    if (model.is_linear_only() || model.is_consistent() ||
-        (needs_gradient(parameters.field_names()) &&
-         !(model.is_correspondence() && parameters.solver.is_nonlinear_static())))
+    if (model.is_linear_only() || model.is_consistent())
       {
         const Timings::Scope part(run.timings, "setup: face gradient");
         discretisation.make_gradient(body);

@@ -5,10 +5,12 @@
 #include <perideal/output/errors.h>
 #include <perideal/output/profiles.h>
 #include <perideal/parameters/point_text.h>
+#include <perideal/problem/elastic_states.h>
 #include <perideal/problem/finite_elements.h>
 #include <perideal/recorders/make_recorders.h>
 
 #include <cmath>
+#include <optional>
 
 namespace perideal
 {
@@ -139,8 +141,40 @@ namespace perideal
         const Timings::Scope part(timings, "fem: solve");
         report["iterations"].push_back(fem.solve(problem.parameters.solver.tolerance));
         report["unknowns"] = fem.n_dofs();
+        if (fem.is_on_mesh_itself() && has_elastic_states(problem))
+          fem_states = states_of_fem(problem, fem);
         return at_nodes<dim>(problem, fem);
       }
+
+      /// Errors of the stress against that of the finite elements, and the largest von Mises stress of both.
+      Json stress_errors() const
+      {
+        using Stress       = std::vector<dealii::SymmetricTensor<2, 3>>;
+        const auto  states = elastic_states(problem);
+        const auto &nodes  = *problem.body.nodes;
+        Stress      own, fem;
+        double      own_peak = 0, fem_peak = 0;
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          {
+            own.push_back(states[i].stress);
+            fem.push_back((*fem_states)[i].stress);
+            if (is_given(i))
+              continue;
+            own_peak = std::max(own_peak, states[i].von_mises());
+            fem_peak = std::max(fem_peak, (*fem_states)[i].von_mises());
+          }
+        const auto errors = field_errors(nodes, own, fem, [&](const LocalIndex i) { return is_given(i); });
+        const auto of_all = [&](const double peak) {
+          return dealii::Utilities::MPI::max(peak, problem.run.communicator);
+        };
+        return {{"l2", number_or_null(errors.l2)},
+                {"max", number_or_null(errors.max)},
+                {"largest_von_mises", of_all(own_peak)},
+                {"largest_von_mises_of_fem", of_all(fem_peak)}};
+      }
+
+      /// Displacements of held layers are data and no result.
+      bool is_given(const LocalIndex i) const { return problem.loading.supports->held().in_collar(i); }
 
       NodalField<dim> exact_at_nodes(const double time) const
       {
@@ -169,10 +203,9 @@ namespace perideal
       {
         const char       *components[] = {"u_x", "u_y", "u_z"};
         const Nodes<dim> &nodes        = *problem.body.nodes;
-        const auto        errors       = field_errors(nodes, field, reference, [&](const LocalIndex i) {
-          return problem.loading.supports->held().in_collar(i);
-        });
-        Json              result = {{"l2", number_or_null(errors.l2)}, {"max", number_or_null(errors.max)}};
+        const auto        errors =
+          field_errors(nodes, field, reference, [&](const LocalIndex i) { return is_given(i); });
+        Json result = {{"l2", number_or_null(errors.l2)}, {"max", number_or_null(errors.max)}};
         for (const auto &profile : profiles)
           {
             const auto along = profile_errors(nodes, profile.second->local_nodes(), field, reference);
@@ -198,6 +231,9 @@ namespace perideal
               result["fem"][std::string("own error against ") + truth] =
                 errors_of(solutions.at("fem"), solutions.at(truth));
 
+        if (solutions.count("fem") > 0 && fem_states)
+          result["fem"]["stress"] = stress_errors();
+
         for (const auto &profile : profiles)
           {
             std::vector<typename Profile<dim>::NamedField> fields = {
@@ -215,6 +251,8 @@ namespace perideal
       const bool                                    solves_fem;
       const std::array<SpaceTimeFunction<dim>, dim> exact;
       const Profiles<dim>                           profiles;
+      /// Of finite elements on the mesh itself, where the body's are known too.
+      std::optional<std::vector<ElasticState>> fem_states;
     };
   } // namespace
 

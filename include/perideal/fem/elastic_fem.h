@@ -79,6 +79,10 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>>
     evaluate_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const;
 
+    /// Displacement gradients [-] in the same way.
+    std::vector<dealii::Tensor<2, dim>>
+    gradients_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const;
+
     /// Force [N] that the supports exert on the body through a boundary: the
     /// residual of the free body, summed over the held displacement components
     /// on it. An edge shared by two boundaries counts for both. Collective.

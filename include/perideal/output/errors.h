@@ -4,6 +4,7 @@
 
 #include <perideal/nodes/nodes.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
@@ -22,15 +23,16 @@ namespace perideal
   };
 
   /**
-   * Errors of @p field, one value for each of this rank's nodes. Not finite
+   * Errors of @p field, a vector (dealii::Tensor<1, dim>) or a tensor in space (dealii::SymmetricTensor<2, 3>,
+   * Frobenius norm) for each of this rank's nodes. Not finite
    * where a value of the field is not; NaN where the reference is zero
    * everywhere and so is the field. Collective.
    * @param is_given leaves out nodes, whose values are data and no result; empty: all count
    */
-  template <int dim>
+  template <int dim, typename Value>
   FieldErrors field_errors(const Nodes<dim>                            &nodes,
-                           const std::vector<dealii::Tensor<1, dim>>   &field,
-                           const std::vector<dealii::Tensor<1, dim>>   &reference,
+                           const std::vector<Value>                    &field,
+                           const std::vector<Value>                    &reference,
                            const std::function<bool(const LocalIndex)> &is_given = {});
 
   /**

@@ -15,8 +15,8 @@ namespace perideal
   /// Names that Output/Fields accepts.
   std::vector<std::string> output_field_names();
 
-  /// Whether one of the fields is made from the face gradient of the scene.
-  bool needs_gradient(const std::vector<std::string> &names);
+  /// Whether one of the fields is made from the strain of the nodes.
+  bool needs_strain(const std::vector<std::string> &names);
 
   /// Adds the named fields to the next output; solutions of a comparison that
   /// the scene does not make are left out.

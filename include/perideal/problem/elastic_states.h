@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_elastic_states_h
+#define perideal_problem_elastic_states_h
+
+#include <perideal/materials/elastic_state.h>
+#include <perideal/problem/problem.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /// Whether the scene computes strain and stress of its nodes: for fields, or because its model does.
+  template <int dim>
+  bool has_elastic_states(const Problem<dim> &problem);
+
+  /// Returns strain and stress of the owned nodes: of the consistent form from the face gradient of the
+  /// displacement, of the correspondence model in nonlinear statics those of its bonds, of all others from
+  /// linear fits to their families (FamilyFit), because their displacement jitters from cell to cell.
+  /// Collective.
+  template <int dim>
+  std::vector<ElasticState> elastic_states(const Problem<dim> &problem);
+} // namespace perideal
+
+#endif
