@@ -62,30 +62,6 @@ namespace perideal
       return dealii::Utilities::MPI::min(result, mesh.triangulation.get_communicator());
     }
 
-    /// Bonds that are missing at surfaces.
-    template <int dim>
-    void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result)
-    {
-      const ModelParameters &model = problem.parameters.model;
-      if ((model.is_consistent() && model.is_linear_only()) || problem.loading.tractions->complete_families())
-        return;
-      const double      whole   = lattice_family<dim>(problem.parameters.nodes.horizon_factor).size;
-      const double      missing = 1. - problem.discretisation.families->statistics().mean / whole;
-      const double      percent = std::round(100. * missing);
-      const std::string share =
-        percent > 0 ? "families lack " + short_number(percent) + " % of their bonds on average, " : "";
-      if (!model.model->corrects_surfaces && !model.compensates())
-        result.push_back("the " + model.model->name + " model has no surface correction: " + share +
-                         "errors of several per cent are usual");
-      // Families of long cells have other numbers of members.
-      if (problem.discretisation.families->statistics().max < whole &&
-          problem.body.nodes->max_aspect_ratio < 1.5)
-        result.push_back(
-          "the body is nowhere two horizons thick: " + share +
-          "bending may be off by tens of per cent: take more cells across it, or Material/Model = "
-          "extended ordinary with Form = consistent in statics");
-    }
-
     /// What models do in motion that solids do not.
     template <int dim>
     void warn_of_motion(const Problem<dim> &problem, std::vector<std::string> &result)

@@ -67,10 +67,11 @@ namespace perideal
 
   /// Displacement gradients [-], (d u_a/d x_b), in the same way: at one point of each locally owned cell.
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> gradients_in_cells(const dealii::Mapping<dim>            &mapping,
-                                                         const dealii::DoFHandler<dim>         &unknowns,
-                                                         const NodalVector                     &displacement,
-                                                         const std::vector<dealii::Point<dim>> &point_of_cell);
+  std::vector<dealii::Tensor<2, dim>>
+  gradients_in_cells(const dealii::Mapping<dim>            &mapping,
+                     const dealii::DoFHandler<dim>         &unknowns,
+                     const NodalVector                     &displacement,
+                     const std::vector<dealii::Point<dim>> &point_of_cell);
 } // namespace perideal
 
 #endif

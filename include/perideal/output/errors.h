@@ -23,10 +23,9 @@ namespace perideal
   };
 
   /**
-   * Errors of @p field, a vector (dealii::Tensor<1, dim>) or a tensor in space (dealii::SymmetricTensor<2, 3>,
-   * Frobenius norm) for each of this rank's nodes. Not finite
-   * where a value of the field is not; NaN where the reference is zero
-   * everywhere and so is the field. Collective.
+   * Errors of @p field, a vector (dealii::Tensor<1, dim>) or a tensor in space (dealii::SymmetricTensor<2,
+   * 3>, Frobenius norm) for each of this rank's nodes. Not finite where a value of the field is not; NaN
+   * where the reference is zero everywhere and so is the field. Collective.
    * @param is_given leaves out nodes, whose values are data and no result; empty: all count
    */
   template <int dim, typename Value>

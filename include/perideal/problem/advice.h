@@ -19,6 +19,10 @@ namespace perideal
   template <int dim>
   GlobalIndex thin_cells(const Problem<dim> &problem);
 
+  /// Adds what bonds that are missing at surfaces spoil, one line each. Collective.
+  template <int dim>
+  void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result);
+
   /// What is likely to spoil the result or to stop the solver, one line each. Collective.
   template <int dim>
   std::vector<std::string> warnings(const Problem<dim> &problem);

@@ -17,7 +17,9 @@ namespace
   template <int dim>
   struct FittedBody
   {
-    FittedBody(const std::vector<unsigned int> &cells, const dealii::Point<dim> &size, const double distortion)
+    FittedBody(const std::vector<unsigned int> &cells,
+               const dealii::Point<dim>        &size,
+               const double                     distortion)
       : mesh(test::make_box<dim>(cells, size, distortion))
       , nodes(*mesh, NodeParameters{3.01})
       , families(nodes, nullptr)
@@ -85,8 +87,7 @@ TEST(FamilyFit, SeesOneSideOfACut)
   FittedBody<2> body({8, 8}, {1., 1.}, 0.2);
   const auto    is_right = [](const dealii::Point<2> &x) { return x[0] > 0.5; };
   body.set([&](const auto &x) { return dealii::Point<2>(is_right(x) ? 1. + x[1] : x[0], 0.); });
-  const auto gradients =
-    body.fit([&](const auto &x, const auto &y) { return is_right(x) == is_right(y); });
+  const auto gradients = body.fit([&](const auto &x, const auto &y) { return is_right(x) == is_right(y); });
   for (LocalIndex i = 0; i < gradients.size(); ++i)
     {
       const bool right = is_right(body.families.position[i]);
