@@ -51,16 +51,29 @@ namespace perideal
 
   void GmshLines::fail(const std::string &problem, const std::string &advice) const
   {
+    fail_at(number, problem, advice);
+  }
+
+  void GmshLines::fail_at(const std::size_t line, const std::string &problem, const std::string &advice) const
+  {
     throw InputError(problem)
-      .location(filename + ":" + std::to_string(number))
+      .location(filename + ":" + std::to_string(line))
       .parameter("Mesh/File")
       .hint(advice);
   }
 
   void GmshLines::fail_at_entry(const std::string &section) const
   {
-    fail("cannot read this entry of the section $" + section + ": '" + std::string(current.substr(0, 60)) +
-         "'");
+    fail("cannot read this entry of the section $" + section + ": '" + quoted() + "'");
+  }
+
+  std::string GmshLines::quoted() const
+  {
+    std::string text(current.substr(0, 60));
+    for (char &letter : text)
+      if (static_cast<unsigned char>(letter) < ' ' || letter == 127)
+        letter = '?';
+    return text;
   }
 
   void GmshLines::fail_truncated(const std::string &section) const

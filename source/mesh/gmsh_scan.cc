@@ -14,6 +14,9 @@ namespace perideal
   {
     const std::string conversion = "convert it: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
+    /// deal.II reads the numbers of nodes and elements as int.
+    constexpr std::uint64_t largest_number = std::numeric_limits<int>::max();
+
     /// One walk through a file.
     class Scan
     {
@@ -29,22 +32,28 @@ namespace perideal
     private:
       void read_format();
       void read_physical_names();
-      void read_entities();
       void read_nodes();
       void read_node();
       void read_elements_2();
       void read_elements_4();
       void add_element(GmshFields &fields, const std::uint64_t number, const int type, const int tag);
+      void
+      check_total(const std::string &section, const std::uint64_t total, const std::uint64_t count) const;
       void note_unsupported(const GmshElementType *type, const int type_number, const std::uint64_t number);
+      void check_order();
       void check_elements() const;
 
       GmshLines lines;
       const int dim;
 
-      bool                              is_version_4 = false;
-      bool                              has_nodes    = false;
-      bool                              has_elements = false;
-      std::array<std::map<int, int>, 4> tag_of_entity;
+      bool is_version_4 = false;
+      bool has_nodes    = false;
+      bool has_elements = false;
+      /// Of the sections that deal.II reads, the first that may come.
+      std::ptrdiff_t next_section = 0;
+      GmshEntities   tag_of_entity;
+      GmshNodes      nodes;
+      GmshCells      cells;
       /// Bounding box of the nodes.
       std::array<double, 3> lower, upper;
       /// Number of elements by their dimension, and of quadrilaterals.
@@ -95,37 +104,6 @@ namespace perideal
       lines.expect_end("PhysicalNames");
     }
 
-    /// Format 4.1: geometric entities and the physical group of each. deal.II
-    /// reads negative tags as huge ones and stops at a second tag.
-    void Scan::read_entities()
-    {
-      std::array<std::uint64_t, 4> counts = {};
-      lines.read("Entities", counts[0], counts[1], counts[2], counts[3]);
-      for (int d = 0; d < 4; ++d)
-        for (std::uint64_t i = 0; i < counts[d]; ++i)
-          {
-            GmshFields fields(lines.entry("Entities"));
-            // a point is described by its position, the others by a bounding box
-            const int n_coordinates = d == 0 ? 3 : 6;
-            double    coordinate    = 0;
-            int       entity = 0, n_tags = 0, tag = 0;
-            bool      understood = fields.read(entity);
-            for (int c = 0; c < n_coordinates; ++c)
-              understood = understood && fields.read(coordinate);
-            if (!(understood && fields.read(n_tags) && (n_tags == 0 || fields.read(tag))))
-              lines.fail_at_entry("Entities");
-            static const std::array<std::string, 4> kinds = {{"point ", "curve ", "surface ", "volume "}};
-            if (n_tags > 1)
-              lines.fail(kinds[d] + std::to_string(entity) + " is in more than one physical group",
-                         "put every point, curve, surface and volume into one physical group at most");
-            if (tag < 0)
-              lines.fail(kinds[d] + std::to_string(entity) + " has a negative physical tag",
-                         "name it without a minus sign in its physical group");
-            tag_of_entity[d][entity] = tag;
-          }
-      lines.expect_end("Entities");
-    }
-
     void Scan::read_node()
     {
       GmshFields    fields(lines.entry("Nodes"));
@@ -138,32 +116,55 @@ namespace perideal
           lower[d]   = std::min(lower[d], x);
           upper[d]   = std::max(upper[d], x);
         }
-      if (!understood)
+      if (!understood || !fields.at_end() || number > largest_number)
         lines.fail_at_entry("Nodes");
+      if (!is_version_4)
+        nodes.add({number, lines.line_number()});
+    }
+
+    void
+    Scan::check_total(const std::string &section, const std::uint64_t total, const std::uint64_t count) const
+    {
+      if (total != count)
+        lines.fail("the section $" + section + " announces " + std::to_string(total) +
+                     " entries in all (its second number) and its blocks hold " + std::to_string(count),
+                   "save the mesh again");
     }
 
     void Scan::read_nodes()
     {
       lower.fill(std::numeric_limits<double>::max());
       upper.fill(std::numeric_limits<double>::lowest());
-      std::uint64_t n_blocks = 1, count = 0;
+      std::uint64_t n_blocks = 1, count = 0, total = 0, smallest = 0, largest = 0;
       if (is_version_4)
-        lines.read("Nodes", n_blocks);
+        lines.read_all("Nodes", n_blocks, total, smallest, largest);
       else
-        lines.read("Nodes", count);
+        lines.read_all("Nodes", count);
       for (std::uint64_t block = 0; block < n_blocks; ++block)
         {
           if (is_version_4)
             {
               int dimension = 0, entity = 0, parametric = 0;
-              lines.read("Nodes", dimension, entity, parametric, count);
+              lines.read_all("Nodes", dimension, entity, parametric, count);
+              if (parametric != 0)
+                lines.fail("nodes with parametric coordinates are not supported",
+                           "save the mesh with Mesh.SaveParametric = 0;");
               for (std::uint64_t i = 0; i < count; ++i)
-                lines.entry("Nodes");
+                {
+                  std::uint64_t number = 0;
+                  lines.read_all("Nodes", number);
+                  if (number > largest_number)
+                    lines.fail_at_entry("Nodes");
+                  nodes.add({number, lines.line_number()});
+                }
             }
           for (std::uint64_t i = 0; i < count; ++i)
             read_node();
         }
       lines.expect_end("Nodes");
+      if (is_version_4)
+        check_total("Nodes", total, nodes.size());
+      nodes.close(lines);
       has_nodes = true;
     }
 
@@ -189,26 +190,35 @@ namespace perideal
           note_unsupported(element, type, number);
           return;
         }
-      // of the supported types, hexahedra have most nodes
-      std::array<std::uint64_t, 8> nodes;
-      const auto                   end  = nodes.begin() + element->n_nodes;
-      bool                         fits = true;
-      for (auto node = nodes.begin(); node != end; ++node)
+      GmshCells::Nodes corners = {};
+      const auto       end     = corners.begin() + element->n_nodes;
+      bool             fits    = true;
+      for (auto node = corners.begin(); node != end; ++node)
         fits = fits && fields.read(*node);
       if (!fits || !fields.at_end())
         lines.fail("element " + std::to_string(number) + ", a " + element->name + ", must have " +
                    std::to_string(element->n_nodes) + " node numbers");
       const auto occurs_before = [&](const auto node) {
-        return std::find(nodes.begin(), node, *node) != node;
+        return std::find(corners.begin(), node, *node) != node;
       };
       bool is_collapsed = false;
-      for (auto node = nodes.begin(); node != end; ++node)
-        is_collapsed = is_collapsed || occurs_before(node);
+      for (auto node = corners.begin(); node != end; ++node)
+        {
+          is_collapsed = is_collapsed || occurs_before(node);
+          if (!nodes.has(*node))
+            lines.fail("element " + std::to_string(number) + ", a " + element->name +
+                         ", has a corner at node " + std::to_string(*node) +
+                         ", and the section $Nodes has no such node",
+                       "save the mesh again");
+        }
       if (is_collapsed)
         lines.fail("element " + std::to_string(number) + ", a " + element->name +
                    ", is collapsed: it has one node at two of its corners");
       if (element->dimension == dim)
-        contents.cell_numbers.push_back(number);
+        {
+          contents.cell_numbers.push_back(number);
+          cells.add({number, lines.line_number()}, corners);
+        }
       else if (element->dimension == dim - 1)
         ++contents.faces_by_tag[tag];
       n_quadrilaterals += element->name == "quadrilateral" ? 1 : 0;
@@ -217,7 +227,7 @@ namespace perideal
     void Scan::read_elements_2()
     {
       std::uint64_t count = 0;
-      lines.read("Elements", count);
+      lines.read_all("Elements", count);
       for (std::uint64_t i = 0; i < count; ++i)
         {
           GmshFields    fields(lines.entry("Elements"));
@@ -226,7 +236,7 @@ namespace perideal
           bool          understood = fields.read(number) && fields.read(type) && fields.read(n_tags);
           for (int t = 0; understood && t < n_tags; ++t)
             understood = fields.read(t == 0 ? tag : other_tag);
-          if (!understood)
+          if (!understood || n_tags < 0 || number > largest_number)
             lines.fail_at_entry("Elements");
           if (tag < 0)
             lines.fail("element " + std::to_string(number) + " has a negative physical tag",
@@ -238,14 +248,15 @@ namespace perideal
 
     void Scan::read_elements_4()
     {
-      std::uint64_t n_blocks = 0;
-      lines.read("Elements", n_blocks);
+      std::uint64_t n_blocks = 0, total = 0, n_read = 0, smallest = 0, largest = 0;
+      lines.read_all("Elements", n_blocks, total, smallest, largest);
       for (std::uint64_t block = 0; block < n_blocks; ++block)
         {
           int           dimension = 0, entity = 0, type = 0;
           std::uint64_t count = 0;
-          lines.read("Elements", dimension, entity, type, count);
-          if (dimension < 0 || dimension > 3)
+          lines.read_all("Elements", dimension, entity, type, count);
+          const GmshElementType *element = gmsh_element_type(type);
+          if (dimension < 0 || dimension > 3 || (element != nullptr && element->dimension != dimension))
             lines.fail_at_entry("Elements");
           const auto found = tag_of_entity[dimension].find(entity);
           const int  tag   = found == tag_of_entity[dimension].end() ? 0 : found->second;
@@ -253,12 +264,14 @@ namespace perideal
             {
               GmshFields    fields(lines.entry("Elements"));
               std::uint64_t number = 0;
-              if (!fields.read(number))
+              if (!fields.read(number) || number > largest_number)
                 lines.fail_at_entry("Elements");
               add_element(fields, number, type, tag);
             }
+          n_read += count;
         }
       lines.expect_end("Elements");
+      check_total("Elements", total, n_read);
     }
 
     void Scan::check_elements() const
@@ -280,15 +293,35 @@ namespace perideal
         lines.fail("the mesh is not planar: its nodes differ in z", "draw 2-D bodies in the x-y plane");
     }
 
+    /// deal.II reads the sections in this order only, and none between them.
+    void Scan::check_order()
+    {
+      static const std::array<std::string, 4> order = {
+        {"$PhysicalNames", "$Entities", "$Nodes", "$Elements"}};
+      const std::string section(lines.line());
+      const auto        found    = std::find(order.begin(), order.end(), section) - order.begin();
+      const bool        is_known = found < static_cast<std::ptrdiff_t>(order.size());
+      if (section.front() == '$' && (is_known ? found < next_section : !has_elements) &&
+          section.rfind("$Partitioned", 0) != 0)
+        lines.fail(
+          "the section " + lines.quoted() +
+            " does not belong here: $MeshFormat, $PhysicalNames, $Entities, $Nodes and $Elements stand "
+            "once each, in this order",
+          "save the mesh again, every mesh in a file of its own");
+      if (is_known)
+        next_section = found + 1;
+    }
+
     GmshContents Scan::run()
     {
       read_format();
       while (lines.next())
         {
+          check_order();
           if (lines.line() == "$PhysicalNames")
             read_physical_names();
           else if (lines.line() == "$Entities")
-            read_entities();
+            tag_of_entity = read_gmsh_entities(lines);
           else if (lines.line() == "$PartitionedEntities")
             lines.fail("the mesh is partitioned", "save it in one part: Mesh.NbPartitions = 0;");
           else if (lines.line() == "$Nodes")
@@ -301,10 +334,10 @@ namespace perideal
           else if (lines.line().front() == '$')
             lines.skip_section();
           else
-            lines.fail("expected the beginning of a section, not '" +
-                       std::string(lines.line().substr(0, 60)) + "'");
+            lines.fail("expected the beginning of a section, not '" + lines.quoted() + "'");
         }
       check_elements();
+      cells.check(lines);
       return std::move(contents);
     }
   } // namespace

@@ -62,6 +62,9 @@ namespace perideal
 
     std::size_t line_number() const { return number; }
 
+    /// The beginning of the line for messages, without control characters.
+    std::string quoted() const;
+
     /// The next line, which must be an entry of the section.
     std::string_view entry(const std::string &section);
 
@@ -74,6 +77,15 @@ namespace perideal
         fail_at_entry(section);
     }
 
+    /// Reads the next entry, which must consist of these numbers.
+    template <typename... Numbers>
+    void read_all(const std::string &section, Numbers &...values)
+    {
+      GmshFields fields(entry(section));
+      if (!(fields.read(values) && ...) || !fields.at_end())
+        fail_at_entry(section);
+    }
+
     /// The next line must be the end of the section.
     void expect_end(const std::string &section);
 
@@ -82,6 +94,10 @@ namespace perideal
 
     /// @throws InputError with file, line and advice.
     [[noreturn]] void fail(const std::string &problem, const std::string &advice = "") const;
+
+    /// @throws InputError about another line than the present one.
+    [[noreturn]] void
+    fail_at(const std::size_t line, const std::string &problem, const std::string &advice) const;
 
     /// @throws InputError about an entry that is not understood.
     [[noreturn]] void fail_at_entry(const std::string &section) const;

@@ -121,7 +121,8 @@ TEST(ReadGmsh, RefusesWrongNumbers)
   expect_input_error([] { read_text<2>(msh_22({}, two_squares, {"2 3 2 9 1 1 2 3"})); },
                      {"element 2", "4 node"});
   expect_input_error([] { read_text<2>(msh_22({}, two_squares, {"2 3 2 9 1 1 2 3 4 5"})); }, {"element 2"});
-  expect_input_error([] { read_text<2>(msh_22({}, two_squares, {"2 3 2 9 1 1 2 3 44"})); }, {"vertex", "44"});
+  expect_input_error([] { read_text<2>(msh_22({}, two_squares, {"2 3 2 9 1 1 2 3 44"})); },
+                     {"element 2", "node 44", "$Nodes"});
   expect_input_error([] { read_text<2>(msh_22({}, two_squares, {"2 3 2 -9 1 1 2 3 4"})); }, {"negative"});
   expect_input_error([] { read_text<2>(msh_22({}, {"1 0 nan 0"}, {})); }, {"$Nodes", "1 0 nan 0"});
   expect_input_error([] { read_text<2>(msh_22({}, {"1 0 0,5 0"}, {})); }, {"$Nodes", "1 0 0,5 0"});
@@ -145,4 +146,81 @@ TEST(ReadGmsh, TakesEdgesAndCornersOfTheSurface)
   nodes.insert(nodes.end(), {"9 0 0 2", "10 1 0 2", "11 1 1 2", "12 0 1 2"});
   const std::string lower = "1 5 2 9 1 1 2 3 4 5 6 7 8", upper = "2 5 2 9 1 5 6 7 8 9 10 11 12";
   read_text<3>(msh_22({}, nodes, {lower, upper, "3 3 2 7 1 1 2 3 4", "4 1 2 8 1 1 2", "5 15 2 3 1 1"}));
+}
+
+TEST(ReadGmsh, RefusesElementsListedTwice)
+{
+  // deal.II does not come back from these
+  for (const char *again :
+       {"3 3 2 9 1 1 2 3 4", "4 3 2 9 1 1 2 3 4", "4 3 2 9 1 3 4 1 2", "4 3 2 9 1 4 3 2 1"})
+    expect_input_error(
+      [&] {
+        read_text<2>(msh_22({}, two_squares, {quads[1], quads[2], again}));
+      },
+      {"part.msh:17", "elements 2 (line 15) and ", "same nodes"});
+  expect_input_error(
+    [] {
+      read_text<3>(msh_22({}, cube, {"1 5 2 9 1 1 2 3 4 5 6 7 8", "2 5 2 9 1 5 6 7 8 1 2 3 4"}));
+    },
+    {"elements 1 (line 17) and 2", "same nodes", "two physical groups"});
+}
+
+TEST(ReadGmsh, RefusesNodesThatAreMissingOrListedTwice)
+{
+  expect_input_error(
+    [] {
+      read_text<2>(
+        msh_22({}, {"1 0 0 0", "2 1 0 0", "3 1 1 0", "2 0 1 0", "4 0 1 0"}, {"2 3 2 9 1 1 2 3 4"}));
+    },
+    {"part.msh:9", "node number 2", "twice", "line 7"});
+  // in other sections of elements too, and with gaps between the numbers
+  expect_input_error(
+    [] {
+      read_text<2>(msh_22({}, two_squares, {quads[1], "4 1 2 7 1 1 8"}));
+    },
+    {"part.msh:16", "element 4, a line", "node 8"});
+  expect_input_error(
+    [] {
+      read_text<2>(msh_22({}, {"1 0 0 0", "20 1 0 0", "3 1 1 0", "9 0 1 0"}, {"2 3 2 9 1 1 20 3 4"}));
+    },
+    {"element 2", "node 4"});
+  read_text<2>(msh_22({}, {"1 0 0 0", "20 1 0 0", "3 1 1 0", "9 0 1 0"}, {"2 3 2 9 1 1 20 3 9"}));
+}
+
+TEST(ReadGmsh, RefusesTotalsThatDoNotMatchTheBlocks)
+{
+  const auto expect_refused = [](const std::string              &from,
+                                 const std::string              &to,
+                                 const std::vector<std::string> &words,
+                                 const int                       line = __builtin_LINE()) {
+    std::string text = squares_41;
+    text.replace(text.find(from), from.size(), to);
+    expect_input_error([&] { read_text<2>(text); }, words, __FILE__, line);
+  };
+  read_text<2>(squares_41);
+  for (const char *total : {"0", "5", "7", "18446744073709551615"})
+    {
+      expect_refused("2 6 1 6", std::string("2 ") + total + " 1 6", {"part.msh:", "$Nodes", total, "hold 6"});
+      expect_refused(
+        "2 3 1 3", std::string("2 ") + total + " 1 3", {"part.msh:", "$Elements", total, "hold 3"});
+    }
+  expect_refused("2 6 1 6", "2 -6 1 6", {"$Nodes", "2 -6 1 6"});
+  expect_refused("2 6 1 6", "2", {"$Nodes"});
+  expect_refused("1 4 0 2", "1 4 1 2", {"Mesh.SaveParametric = 0"});
+  expect_refused("2 1 3 2\n", "1 1 3 2\n", {"$Elements", "1 1 3 2"});
+  expect_refused("1 9 1 4", "1 9 2 4", {"$Entities", "1 9 2 4"});
+  expect_refused("4\n0 0 0", "4294967297\n0 0 0", {"$Nodes", "4294967297"});
+}
+
+TEST(ReadGmsh, RefusesSectionsInAnotherOrder)
+{
+  const std::string nodes = "$Nodes\n1\n1 0 0 0\n$EndNodes\n", elements = "$Elements\n0\n$EndElements\n";
+  const std::string other = "$Comments\n$EndComments\n";
+  const std::string good = msh_22({}, two_squares, {quads[1]}), start = good.substr(0, good.find("$Nodes"));
+  const std::string end = good.substr(good.find("$Nodes"));
+  read_text<2>(good + other);
+  expect_input_error([&] { read_text<2>(good + nodes); }, {"part.msh:17", "$Nodes does not belong here"});
+  expect_input_error([&] { read_text<2>(good + elements); }, {"$Elements does not belong here", "once each"});
+  expect_input_error([&] { read_text<2>(start + elements + nodes); }, {"part.msh:7", "$Nodes"});
+  expect_input_error([&] { read_text<2>(start + other + end); }, {"part.msh:4", "$Comments"});
 }
