@@ -6,6 +6,8 @@
 
 #include <boost/property_tree/json_parser.hpp>
 
+#include <array>
+#include <cstdlib>
 #include <sstream>
 
 namespace perideal
@@ -48,16 +50,29 @@ namespace perideal
     const auto choices = selection_of(pattern);
     if (!choices.empty())
       return join_choices(choices);
-    return dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
+    std::string text =
+      dealii::Patterns::pattern_factory(pattern)->description(dealii::Patterns::PatternBase::Text);
+    // deal.II's words for numbers without bounds
+    const std::vector<std::array<std::string, 2>> words = {
+      {{"A floating point number v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "a number"}},
+      {{"A floating point number v such that ", "a number v, "}},
+      {{" <= v <= MAX_DOUBLE", " <= v"}},
+      {{"-MAX_DOUBLE <= v", "v"}},
+      {{"An integer n such that ", "a whole number n, "}}};
+    for (const auto &[theirs, ours] : words)
+      for (std::size_t at; (at = text.find(theirs)) != std::string::npos;)
+        text.replace(at, theirs.size(), ours);
+    return text;
   }
 
   namespace
   {
-    /// Whether two values are the same text, or the same number.
+    /// Whether two values are the same text, or the same number. Not by std::stod(), which throws at 1e-320.
     bool are_equal(const std::string &a, const std::string &b)
     {
       const dealii::Patterns::Double number;
-      return a == b || (number.match(a) && number.match(b) && std::stod(a) == std::stod(b));
+      return a == b || (number.match(a) && number.match(b) &&
+                        std::strtod(a.c_str(), nullptr) == std::strtod(b.c_str(), nullptr));
     }
 
     void list_changed(const Declarations &section, const std::string &above, std::vector<std::string> &result)

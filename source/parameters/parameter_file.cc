@@ -11,6 +11,7 @@
 #include <array>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -147,6 +148,16 @@ namespace perideal
         {{{"Boundary conditions/Traction treatment", "printed line to point"}}, "published line to point"}};
       const auto found = past.find({{assignment.path(), assignment.value}});
       return found == past.end() ? assignment.value : found->second;
+    }
+
+    /// Advice for a number such as "70,5e9", nothing for other texts.
+    std::string decimal_comma(const std::string &value)
+    {
+      static const std::regex number("([-+]?[0-9]*),([0-9]+([eE][-+]?[0-9]+)?)");
+      std::smatch             parts;
+      if (!std::regex_match(value, parts, number))
+        return "";
+      return "numbers are written with a decimal point: " + parts.str(1) + "." + parts.str(2);
     }
 
     /// Sets one value; false when it does not match the pattern.
@@ -317,7 +328,8 @@ namespace perideal
                          .parameter(assignment.path())
                          .given(assignment.value)
                          .allowed(describe_pattern(allowed))
-                         .nearest(nearest_name(assignment.value, selection_of(allowed))));
+                         .nearest(nearest_name(assignment.value, selection_of(allowed)))
+                         .hint(decimal_comma(assignment.value)));
             not_read.push_back(assignment.path());
           }
       }

@@ -2,35 +2,146 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/finite.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/base/registry.h>
 #include <perideal/parameters/space_time_function.h>
 
+#include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <vector>
 
 namespace perideal
 {
   namespace
   {
-    /// Nothing is written to std::cerr as long as one of these lives.
-    class SilentErrorStream
+    /// Keeps what is written to std::cerr as long as one of these lives.
+    class CaughtErrorStream
     {
     public:
-      SilentErrorStream()
-        : original(std::cerr.rdbuf(nullptr))
+      CaughtErrorStream()
+        : original(std::cerr.rdbuf(caught.rdbuf()))
       {
       }
-      ~SilentErrorStream()
+      ~CaughtErrorStream()
       {
         std::cerr.rdbuf(original);
         std::cerr.clear();
       }
 
+      std::string text() const { return caught.str(); }
+
     private:
-      std::streambuf *original;
+      std::ostringstream caught;
+      std::streambuf    *original;
     };
+
+    bool begins_name(const char letter)
+    {
+      return std::isalpha(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+    }
+
+    /// The names in a formula, each with the position behind it.
+    std::vector<std::pair<std::string, std::size_t>> names_in(const std::string &expression)
+    {
+      static const std::regex number_or_name(
+        "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?|([A-Za-z_]\\w*)");
+      std::vector<std::pair<std::string, std::size_t>> names;
+      for (std::sregex_iterator word(expression.begin(), expression.end(), number_or_name), end; word != end;
+           ++word)
+        if (begins_name(word->str().front()))
+          names.emplace_back(word->str(), word->position() + word->length());
+      return names;
+    }
+
+    /// The functions of muParser and those that deal.II adds.
+    std::vector<std::string> function_names()
+    {
+      std::vector<std::string> names = {"sin",   "cos",  "tan",  "asin",  "acos",  "atan",  "atan2",
+                                        "sinh",  "cosh", "tanh", "asinh", "acosh", "atanh", "log2",
+                                        "log10", "log",  "ln",   "exp",   "sqrt",  "sign",  "rint",
+                                        "abs",   "min",  "max",  "sum",   "avg"};
+      for (const std::string &name : dealii::internal::FunctionParser::get_function_names())
+        names.push_back(name);
+      return names;
+    }
+
+    /// What muParser takes in silence: of "1,5" the last number only, and "x = 5" for an assignment.
+    /// Empty where there is nothing of that kind.
+    std::string mistake_of_form(const std::string &expression)
+    {
+      std::set<std::size_t> calls;
+      for (const auto &name : names_in(expression))
+        calls.insert(std::min(expression.find_first_not_of(" \t", name.second), expression.size()));
+      // whether an open parenthesis is that of a function
+      std::vector<bool> open;
+      for (std::size_t i = 0; i < expression.size(); ++i)
+        switch (expression[i])
+          {
+          case '(':
+            open.push_back(calls.count(i) > 0);
+            break;
+          case ')':
+            if (!open.empty())
+              open.pop_back();
+            break;
+          case ',':
+            if (open.empty() || !open.back())
+              return "a comma stands outside the parentheses of a function, behind \"" +
+                     expression.substr(0, i) + "\"";
+            break;
+          case ';':
+            return "a semicolon has no meaning in it";
+          case '=':
+            if (i + 1 < expression.size() && expression[i + 1] == '=')
+              ++i;
+            else if (i == 0 || std::string("<>!").find(expression[i - 1]) == std::string::npos)
+              return "a single = has no meaning in it";
+            break;
+          default:;
+          }
+      return "";
+    }
+
+    /// muParser's message of what deal.II wrote to the error stream, with positions counted from 1.
+    std::string message_in(const std::string &text)
+    {
+      std::smatch found;
+      if (!std::regex_search(text, found, std::regex("Message:  <(.*?)\\.?>\n")))
+        return "";
+      std::string message = found.str(1);
+      if (message.empty())
+        return "";
+      message.front() = std::tolower(static_cast<unsigned char>(message.front()));
+      if (message.rfind("unexpected end", 0) == 0)
+        return message.substr(0, message.find(" at position"));
+      if (std::regex_search(message, found, std::regex("position ([0-9]+)")))
+        message = found.prefix().str() + "position " + std::to_string(std::stoul(found.str(1)) + 1) +
+                  found.suffix().str();
+      return message;
+    }
+
+    /// Why muParser does not understand a formula of these variables.
+    InputError why_wrong(const std::string              &expression,
+                         const std::vector<std::string> &variables,
+                         const std::string              &caught)
+    {
+      std::vector<std::string> known = variables, functions = function_names();
+      known.emplace_back("pi");
+      known.insert(known.end(), functions.begin(), functions.end());
+      for (const auto &name : names_in(expression))
+        if (std::find(known.begin(), known.end(), name.first) == known.end())
+          return InputError("this formula is wrong: it has no " + name.first)
+            .nearest(nearest_name(name.first, known));
+      const std::string message = message_in(caught);
+      return InputError("this formula is wrong" + (message.empty() ? "" : ": " + message));
+    }
   } // namespace
 
   template <int dim>
@@ -42,9 +153,16 @@ namespace perideal
       return;
     names_time                  = std::regex_search(expression, std::regex("\\bt\\b"));
     const std::string variables = dim == 2 ? "x,y,t" : "x,y,z,t";
+    const std::string allowed   = "an expression in " + variables + " and pi, such as 1e-3*t*sin(pi*x)";
+    if (const std::string mistake = mistake_of_form(expression); !mistake.empty())
+      throw InputError("this formula is wrong: " + mistake)
+        .parameter(parameter)
+        .given(expression)
+        .allowed(allowed)
+        .hint("numbers are written with a decimal point, such as 1.5e6; conditions as (x < 0.5 ? 1 : 2)");
     // deal.II reports what muParser found on the error stream; there it would
     // stand beside our own message.
-    const SilentErrorStream silent;
+    const CaughtErrorStream caught;
     try
       {
         function = std::make_shared<dealii::FunctionParser<dim>>(1);
@@ -56,12 +174,12 @@ namespace perideal
           point[d] = 0.1234 + 0.1 * d;
         evaluate(point, 0.567);
       }
-    catch (const dealii::ExceptionBase &error)
+    catch (const dealii::ExceptionBase &)
       {
-        throw InputError("this formula is wrong")
+        throw why_wrong(expression, dealii::Utilities::split_string_list(variables), caught.text())
           .parameter(parameter)
           .given(expression)
-          .allowed("an expression in " + variables + " and pi, such as 1e-3*t*sin(pi*x)");
+          .allowed(allowed);
       }
   }
 

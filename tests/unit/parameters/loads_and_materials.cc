@@ -50,6 +50,37 @@ TEST(SpaceTimeFunction, RejectsWrongFormulas)
     expect_input_error([&] { SpaceTimeFunction<2>(formula, "Sec/Name"); }, {"Sec/Name", formula, "x,y,t"});
 }
 
+TEST(SpaceTimeFunction, RefusesWhatMuParserTakesInSilence)
+{
+  const auto expect_refused = [](const std::string &formula, const std::vector<std::string> &words) {
+    expect_input_error([&] { SpaceTimeFunction<2>(formula, "Sec/Name"); }, words);
+  };
+  // muParser takes the last number, or an assignment
+  for (const char *formula : {"1,5e6", "x*(1,5)", "1e6*max(x, (y,t))", "1, 2"})
+    expect_refused(formula, {"a comma stands outside the parentheses of a function", formula, "1.5e6"});
+  expect_refused("2*t + 1,5", {"behind \"2*t + 1\""});
+  expect_refused("x = 5", {"single ="});
+  expect_refused("1; 2", {"semicolon"});
+  const dealii::Point<2> point(0.25, 0.5);
+  EXPECT_EQ(SpaceTimeFunction<2>("max (x, y) + min(1, (x + y)*2, pow(2, 3))", "A").value(point, 0.), 1.5);
+  EXPECT_EQ(SpaceTimeFunction<2>("x <= y && y >= x && x != y ? 7 : (x == y)", "A").value(point, 0.), 7.);
+}
+
+TEST(SpaceTimeFunction, NamesWhatIsUnknownAndWhere)
+{
+  const auto expect_words = [](const std::string &formula, const std::vector<std::string> &words) {
+    expect_input_error([&] { SpaceTimeFunction<2>(formula, "Sec/Name"); }, words);
+  };
+  expect_words("1e6*foo(x)", {"it has no foo", "did you mean: "});
+  expect_words("1e6*sim(x)", {"it has no sim", "did you mean: sin"});
+  expect_words("1e6*Pi", {"it has no Pi", "did you mean: pi"});
+  expect_words("1e6*z", {"it has no z"});
+  expect_words("1e6*", {"unexpected end of expression\n"});
+  expect_words("1e6*(1 + )", {"position 10"});
+  expect_words("sin(1, 2)", {"too many parameters for function \"sin\""});
+  expect_words("2x", {"position 2"});
+}
+
 TEST(Loads, TractionAndPressure)
 {
   const Loads<2> loads = read_loads("set Boundary = a, 3\n set t_x = 2*x\n set Pressure = 5*t\n");
