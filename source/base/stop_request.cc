@@ -34,4 +34,9 @@ namespace perideal
   {
     return dealii::Utilities::MPI::max(static_cast<unsigned int>(stop_requested), communicator) != 0;
   }
+
+  bool StopRequest::is_here() const
+  {
+    return stop_requested != 0;
+  }
 } // namespace perideal

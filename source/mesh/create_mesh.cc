@@ -29,7 +29,8 @@ namespace perideal
         generate_mesh(parameters, coarse);
       else
         {
-          const MeshFile file = load_mesh_file(parameters.file, scene_directory, dim, communicator);
+          const MeshFile file =
+            load_mesh_file(parameters.file, scene_directory, dim, parameters.gmsh_time_limit, communicator);
           read_gmsh(file.text, file.path, coarse);
         }
     }

@@ -47,12 +47,15 @@ namespace perideal
         .nearest(nearest_name(path.filename().string(), present));
     }
 
-    MeshFile load(const std::string &filename, const std::string &scene_directory, const int dim)
+    MeshFile load(const std::string &filename,
+                  const std::string &scene_directory,
+                  const int          dim,
+                  const double       gmsh_time_limit)
     {
       const fs::path    path      = find_mesh_file(filename, scene_directory);
       const std::string extension = path.extension().string();
       if (extension == ".geo")
-        return {path.string(), run_gmsh(path.string(), dim)};
+        return {path.string(), run_gmsh(path.string(), dim, gmsh_time_limit)};
       if (extension != ".msh")
         throw InputError("the kind of a mesh file is told by the end of its name").allowed(".msh | .geo");
 
@@ -69,20 +72,28 @@ namespace perideal
   MeshFile load_mesh_file(const std::string &filename,
                           const std::string &scene_directory,
                           const int          dim,
+                          const double       gmsh_time_limit,
                           MPI_Comm           communicator)
   {
     MeshFile    file;
-    std::string problem;
+    std::string problem, stop;
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       try
         {
-          file = load(filename, scene_directory, dim);
+          file = load(filename, scene_directory, dim, gmsh_time_limit);
         }
       catch (const InputError &error)
         {
           problem = error.what();
         }
+      catch (const Stopped &stopped)
+        {
+          stop = stopped.what();
+        }
+    stop    = dealii::Utilities::MPI::broadcast(communicator, stop);
     problem = dealii::Utilities::MPI::broadcast(communicator, problem);
+    if (!stop.empty())
+      throw Stopped(stop);
     if (!problem.empty())
       throw InputError(problem).parameter("Mesh/File").given(filename);
     file.path = dealii::Utilities::MPI::broadcast(communicator, file.path);

@@ -17,6 +17,10 @@ namespace perideal
       "by the program gmsh; relative paths start from the working directory, then from the scene's. "
       "Empty: take the Generator",
       Anything());
+    prm.add_parameter("Gmsh time limit",
+                      gmsh_time_limit,
+                      "How long the program gmsh may take to mesh a .geo File before the run ends, > 0 [s]",
+                      Double(0.));
     prm.add_parameter("Generator",
                       generator,
                       "Built-in mesh, instead of a File: " + join_choices(generator_names()) +
@@ -96,6 +100,10 @@ namespace perideal
                    .parameter("Mesh/File")
                    .given("File = " + file + " and Generator = " + generator)
                    .hint("empty the one that is not meant: set Generator ="));
+    if (!(gmsh_time_limit > 0))
+      errors.add(InputError("the time limit must be positive")
+                   .parameter("Mesh/Gmsh time limit")
+                   .allowed("a number > 0 [s]"));
     if (!(thickness > 0))
       errors.add(
         InputError("the thickness must be positive").parameter("Mesh/Thickness").allowed("a number > 0 [m]"));

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
+#include <perideal/base/stop_request.h>
 #include <perideal/mesh/mesh_file.h>
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <spawn.h>
 #include <sstream>
 #include <string_view>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -63,9 +68,57 @@ namespace perideal
       return variables;
     }
 
-    /// Runs a program found on PATH, its output in a file. Returns its exit
-    /// status, or 128 + signal.
-    int run(std::vector<std::string> arguments, const std::string &log)
+    /// Waits for gmsh, and ends it when the time is over or this process is asked to stop.
+    /// Returns its status as waitpid() gives it.
+    int wait_for(const pid_t process, const std::string &geo_file, const double time_limit)
+    {
+      using Clock = std::chrono::steady_clock;
+      const StopRequest stop;
+      const auto        begin  = Clock::now();
+      const auto        end_it = [process] {
+        int ignored = 0;
+        kill(process, SIGKILL);
+        while (waitpid(process, &ignored, 0) == -1 && errno == EINTR)
+          ;
+      };
+      int n_minutes = 0;
+      for (auto pause = std::chrono::milliseconds(1);;
+           pause      = std::min(2 * pause, std::chrono::milliseconds(100)))
+        {
+               int         status   = 0;
+               const pid_t finished = waitpid(process, &status, WNOHANG);
+               if (finished == process)
+            return status;
+          if (finished == -1 && errno != EINTR)
+            throw InputError("cannot wait for the program gmsh: " + std::string(std::strerror(errno)));
+          const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+               if (stop.is_here())
+            {
+                   end_it();
+                   throw Stopped("while gmsh meshed " + geo_file + "; gmsh was ended, nothing was computed");
+            }
+          if (seconds > time_limit)
+            {
+                   end_it();
+                   std::ostringstream limit;
+                   limit << time_limit;
+                   throw InputError(geo_file + ": gmsh did not end within " + limit.str() + " s and was ended")
+                     .hint("open the file in gmsh and mesh it there; choose larger sizes, mesh it once and give "
+                           "the .msh "
+                           "file, or raise Mesh/Gmsh time limit");
+            }
+          if (seconds > 60. * (n_minutes + 1))
+            std::cout << "gmsh        still meshes " << geo_file << " after " << ++n_minutes << " min"
+                      << std::endl;
+          std::this_thread::sleep_for(pause);
+        }
+    }
+
+    /// Runs gmsh, its output in a file. Returns its exit status, or 128 + signal.
+    int run(std::vector<std::string> arguments,
+            const std::string       &log,
+            const std::string       &geo_file,
+            const double             time_limit)
     {
       std::vector<char *> argv;
       for (std::string &argument : arguments)
@@ -86,9 +139,7 @@ namespace perideal
         throw InputError("cannot run the program " + arguments[0] + ": " + std::strerror(error))
           .hint("install it (apt-get install gmsh), or mesh the file elsewhere and give the .msh file");
 
-      int status = 0;
-      while (waitpid(process, &status, 0) == -1 && errno == EINTR)
-        ;
+      const int status = wait_for(process, geo_file, time_limit);
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
 
@@ -116,15 +167,20 @@ namespace perideal
     }
   } // namespace
 
-  std::string run_gmsh(const std::string &geo_file, const int dim)
+  std::string run_gmsh(const std::string &path, const int dim, const double time_limit)
   {
+    // a name such as -x.geo would be an option
+    const std::string        geo_file = path.front() == '-' ? "./" + path : path;
     const TemporaryDirectory directory;
     const std::string        mesh = directory.file("mesh.msh"), log = directory.file("log");
 
     // Format 2.2, because in 4.1 deal.II misreads groups with reversed curves
     // (negative tags)
     const int status =
-      run({"gmsh", geo_file, dim == 2 ? "-2" : "-3", "-format", "msh22", "-o", mesh, "-v", "3"}, log);
+      run({"gmsh", geo_file, dim == 2 ? "-2" : "-3", "-format", "msh22", "-o", mesh, "-v", "3"},
+          log,
+          geo_file,
+          time_limit);
     const std::string text = text_of(mesh);
     if (status != 0 || text.empty())
       throw InputError(geo_file + ": gmsh failed (exit status " + std::to_string(status) +

@@ -8,9 +8,11 @@
 import argparse
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 # One thread a rank; Open MPI may run as root (containers).
@@ -90,6 +92,33 @@ WARNINGS = [(["Material/Poisson ratio=0.45", "Nodes/Horizon factor=2"], ["unstab
             (["Material/Symmetry=anisotropic", "Material/Stiffness=1e9, 2e9, 0, 1e9, 0, 1e9"], ["not positive definite"])]
 
 
+def interrupted_gmsh(program, folder):
+    """What differs when the run is interrupted while it waits for gmsh, which is to be ended too; as texts."""
+    (folder / "gmsh").write_text("#!/bin/sh\necho $$ > started\nexec sleep 100\n", encoding="utf-8")
+    (folder / "gmsh").chmod(0o755)
+    (folder / "part.geo").write_text("Point(1) = {0, 0, 0};\n", encoding="utf-8")
+    (folder / "gmsh.prm").write_text(TENSORS.replace("set Generator = box", "set File = part.geo"), encoding="utf-8")
+    process = subprocess.Popen([program, "gmsh.prm"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE,
+                               env={**ENVIRONMENT, **os.environ, "PATH": f"{folder}:{os.environ['PATH']}"})
+    started = folder / "started"
+    for _ in range(300):
+        if started.exists() and started.read_text(encoding="utf-8").strip():
+            break
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    try:
+        err = process.communicate(timeout=30)[1].decode()
+    except subprocess.TimeoutExpired:
+        process.kill()
+        return ["does not stop"]
+    found = [] if process.returncode == 2 else [f"exit status {process.returncode}"]
+    found += [f"does not say {word!r}" for word in ("stopped: while gmsh meshed", "part.geo") if word not in err]
+    if Path(f"/proc/{started.read_text(encoding='utf-8').strip()}").exists():
+        found.append("leaves gmsh running")
+    return found
+
+
 def main():
     parser = argparse.ArgumentParser(description="runs the options that solve nothing")
     parser.add_argument("--program", required=True, type=os.path.abspath)
@@ -119,6 +148,11 @@ def main():
             print(f"{'DEVIATES' if found else 'ok':8}  {' '.join(options)}")
             for deviation in found:
                 print(f"    {deviation}")
+        found = interrupted_gmsh(arguments.program, folder)
+        n_deviating += bool(found)
+        print(f"{'DEVIATES' if found else 'ok':8}  a run that is interrupted while gmsh works")
+        for deviation in found:
+            print(f"    {deviation}")
     if without_surroundings(SURROUNDINGS) or without_surroundings(SURROUNDINGS + COMPLAINT) != COMPLAINT:
         n_deviating += 1
         print("what MPI prints about its surroundings is not told from what the program says")

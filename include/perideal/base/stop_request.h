@@ -21,6 +21,9 @@ namespace perideal
     /// Whether any rank was asked to stop. Collective.
     bool is_there(MPI_Comm communicator) const;
 
+    /// Whether this rank was.
+    bool is_here() const;
+
   private:
     void (*before_term)(int);
     void (*before_interrupt)(int);

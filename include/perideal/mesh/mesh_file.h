@@ -23,16 +23,21 @@ namespace perideal
    * rank does so, the others receive the text. Collective.
    *
    * @param dim dimension in which a `.geo` is meshed
-   * @throws InputError on all ranks alike.
+   * @param gmsh_time_limit how long that may take [s]
+   * @throws InputError, or Stopped where the program was asked to stop meanwhile, on all ranks alike.
    */
   MeshFile load_mesh_file(const std::string &filename,
                           const std::string &scene_directory,
                           const int          dim,
+                          const double       gmsh_time_limit,
                           MPI_Comm           communicator);
 
-  /// Runs the program gmsh on a `.geo` file and returns the mesh as `.msh` text.
-  /// @throws InputError with gmsh's first error where it is missing or fails.
-  std::string run_gmsh(const std::string &geo_file, const int dim);
+  /// Runs the program gmsh on a `.geo` file and returns the mesh as `.msh` text. Says every minute that it
+  /// runs.
+  /// @param time_limit after which gmsh is ended [s]
+  /// @throws InputError with gmsh's first error where it is missing, fails or takes too long.
+  /// @throws Stopped where this process got SIGINT or SIGTERM; gmsh is ended first.
+  std::string run_gmsh(const std::string &geo_file, const int dim, const double time_limit);
 } // namespace perideal
 
 #endif

@@ -16,6 +16,8 @@ namespace perideal
   {
     /// A `.msh` (2.2 or 4.1, ASCII) or a `.geo` file; empty: use the generator.
     std::string file;
+    /// How long the program gmsh may mesh a file [s].
+    double gmsh_time_limit = 3600.;
     /// Name of the built-in generator; empty: use the file.
     std::string generator;
     /// Cell counts of the generator, their meaning is the generator's; empty: its default.

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 using namespace perideal;
 using namespace perideal::test;
@@ -117,4 +118,33 @@ TEST(MeshFile, BundledLaminateHasItsSize)
     EXPECT_NEAR(boundary_measure(*mesh, side), 0.05, 1e-12) << side;
   for (const char *side : {"bottom", "top"})
     EXPECT_NEAR(boundary_measure(*mesh, side), 0.15, 1e-12) << side;
+}
+
+TEST(MeshFile, NamesOfGeometriesAreNoOptions)
+{
+  const TemporaryDirectory directory;
+  directory.write("-2.geo", rectangles + groups);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(directory.path());
+  MeshParameters parameters;
+  parameters.file = "-2.geo";
+  EXPECT_EQ(create_mesh<2>(parameters, MPI_COMM_WORLD, "")->triangulation.n_global_active_cells(), 8u);
+  std::filesystem::current_path(before);
+}
+
+TEST(MeshFile, EndsGmshWhenTheTimeIsOver)
+{
+  const TemporaryDirectory directory;
+  const std::string        file = directory.write("rectangles.geo", rectangles + groups);
+  const std::string        gmsh = directory.write("gmsh", "#!/bin/sh\nexec sleep 100\n");
+  std::filesystem::permissions(gmsh, std::filesystem::perms::owner_all);
+  const char       *path = std::getenv("PATH");
+  const std::string old  = path == nullptr ? "" : path;
+  setenv("PATH", (directory.path() + ":" + old).c_str(), 1);
+  MeshParameters parameters;
+  parameters.file            = file;
+  parameters.gmsh_time_limit = 0.3;
+  expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, ""); },
+                     {"Mesh/File", "rectangles.geo", "within 0.3 s", "Mesh/Gmsh time limit"});
+  setenv("PATH", old.c_str(), 1);
 }
