@@ -8,38 +8,49 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <sstream>
 
 namespace perideal
 {
+  template <int dim>
+  std::string in_words(const CoarseMesh<dim> &mesh, const CoarseCell<dim> &cell)
+  {
+    std::ostringstream text;
+    if (mesh.element_numbers.empty())
+      text << "cell " << cell->index();
+    else
+      text << "element " << mesh.element_numbers[cell->index()];
+    text << " about (" << cell->center() << ")";
+    return text.str();
+  }
+
+  template <int dim>
+  InputError mesh_error(const CoarseMesh<dim> &mesh, const std::string &problem)
+  {
+    return InputError(problem)
+      .location(mesh.origin)
+      .parameter(mesh.element_numbers.empty() ? "Mesh/Generator" : "Mesh/File");
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> face_normal(const CoarseCell<dim> &cell, const unsigned int f)
+  {
+    const auto face = cell->face(f);
+    if constexpr (dim == 2)
+      return cross_product_2d(face->vertex(1) - face->vertex(0));
+    else
+      return cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+  }
+
   namespace
   {
     template <int dim>
-    using Cell = typename dealii::Triangulation<dim>::cell_iterator;
+    using Cell = CoarseCell<dim>;
 
     /// Determinant of unit edge vectors below which a corner counts as flat:
     /// files of six digits leave as much to a corner that is meant to be flat.
     constexpr double flat_corner = 1e-6;
-
-    template <int dim>
-    std::string in_words(const CoarseMesh<dim> &mesh, const Cell<dim> &cell)
-    {
-      std::ostringstream text;
-      if (mesh.element_numbers.empty())
-        text << "cell " << cell->index();
-      else
-        text << "element " << mesh.element_numbers[cell->index()];
-      text << " about (" << cell->center() << ")";
-      return text.str();
-    }
-
-    template <int dim>
-    InputError error(const CoarseMesh<dim> &mesh, const std::string &problem)
-    {
-      return InputError(problem)
-        .location(mesh.origin)
-        .parameter(mesh.element_numbers.empty() ? "Mesh/Generator" : "Mesh/File");
-    }
 
     /// Two points closer than this share of the cell's size coincide.
     constexpr double coincident = 1e-12;
@@ -116,20 +127,16 @@ namespace perideal
       if (n_bad > 1)
         first += " (and " + std::to_string(n_bad - 1) + " more)";
       if (n_bad > 0)
-        throw error(mesh, first)
-          .hint("look at the element in Gmsh (Tools, Visibility) and mend the geometry or the mesh sizes "
-                "there");
-    }
-
-    /// A normal of a face at its centre: the tangent turned, or the product of the diagonals.
-    template <int dim>
-    dealii::Tensor<1, dim> face_normal(const Cell<dim> &cell, const unsigned int f)
-    {
-      const auto face = cell->face(f);
-      if constexpr (dim == 2)
-        return cross_product_2d(face->vertex(1) - face->vertex(0));
-      else
-        return cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+        throw mesh_error(mesh, first)
+          .hint(mesh.element_numbers.empty() ?
+                  "choose other sizes of the generator" :
+                  "subdivision (Mesh.SubdivisionAlgorithm) folds cells at curved boundaries: choose smaller "
+                  "sizes "
+                  "there (Mesh.CharacteristicLengthFromCurvature = 1; Mesh.CharacteristicLengthMax), let an "
+                  "optimiser mend them (Mesh.Optimize = 1; Mesh.OptimizeNetgen = 1; or "
+                  "Mesh.HighOrderOptimize), or "
+                  "extrude or use transfinite surfaces and volumes instead. Gmsh shows the element (Tools, "
+                  "Visibility)");
     }
 
     /// Two cells at a face must be each other's only neighbours there, on either
@@ -151,9 +158,9 @@ namespace perideal
               const bool                   opposite =
                 (normal * (cell->center() - centre)) * (normal * (neighbour->center() - centre)) < 0;
               if (!is_mutual || !opposite)
-                throw error(mesh,
-                            in_words<dim>(mesh, cell) + " and " + in_words<dim>(mesh, neighbour) +
-                              " lie on one another: a face separates two cells at most")
+                throw mesh_error(mesh,
+                                 in_words<dim>(mesh, cell) + " and " + in_words<dim>(mesh, neighbour) +
+                                   " lie on one another: a face separates two cells at most")
                   .hint("is a surface (in 3-D a volume) in two physical groups, or drawn twice? "
                         "Coherence; in the .geo file unites duplicates");
             }
@@ -175,10 +182,10 @@ namespace perideal
             for (const auto &named : mesh.boundary_names)
               if (named.second == group.first)
                 name = named.first;
-            throw error(mesh,
-                        "the boundary group " + name + " has " + std::to_string(group.second) +
-                          " faces in the file, of which " + std::to_string(n_faces[group.first]) +
-                          " are sides of cells on the surface and in no other group")
+            throw mesh_error(mesh,
+                             "the boundary group " + name + " has " + std::to_string(group.second) +
+                               " faces in the file, of which " + std::to_string(n_faces[group.first]) +
+                               " are sides of cells on the surface and in no other group")
               .hint("put every boundary curve (in 3-D surface) into one physical group, and only those that "
                     "bound the body");
           }
@@ -192,6 +199,7 @@ namespace perideal
            dealii::ExcMessage("readers and generators make quadrilaterals and hexahedra"));
     check_shapes(mesh);
     check_neighbours(mesh);
+    check_joints(mesh);
     check_boundary_groups(mesh);
   }
 
@@ -218,6 +226,12 @@ namespace perideal
           .hint("make the coarse mesh finer along its curved boundaries, and refine less");
   }
 
+  template std::string          in_words(const CoarseMesh<2> &, const CoarseCell<2> &);
+  template std::string          in_words(const CoarseMesh<3> &, const CoarseCell<3> &);
+  template InputError           mesh_error(const CoarseMesh<2> &, const std::string &);
+  template InputError           mesh_error(const CoarseMesh<3> &, const std::string &);
+  template dealii::Tensor<1, 2> face_normal<2>(const CoarseCell<2> &, const unsigned int);
+  template dealii::Tensor<1, 3> face_normal<3>(const CoarseCell<3> &, const unsigned int);
   PERIDEAL_INSTANTIATE(check_refined_mesh)
   PERIDEAL_INSTANTIATE(check_coarse_mesh)
 } // namespace perideal
