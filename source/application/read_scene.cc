@@ -57,6 +57,48 @@ namespace perideal
         mistakes.collect([&] { SpaceTimeFunction<dim>(formulas[d], prefix + axes[d]); });
     }
 
+    /// Constants without which there is no material: what they default to is nobody's.
+    void ask_for_constants(const ParameterFile &file, SceneParameters &scene, InputErrorCollector &mistakes)
+    {
+      struct Constant
+      {
+        std::string name, problem, allowed;
+        bool        is_needed;
+      };
+      const auto look = [&](const std::string &section, const MaterialProperties &properties) {
+        const bool              isotropic = properties.symmetry.is_isotropic();
+        std::vector<Constant>   constants = {{"Young modulus",
+                                              "the scene gives no Young's modulus",
+                                              "a number > 0 [Pa], such as 210e9 for steel",
+                                              isotropic},
+                                             {"Poisson ratio",
+                                              "the scene gives no Poisson's ratio",
+                                              "a number between -1 and 0.5, such as 0.3 for steel",
+                                              isotropic && !scene.model.model->poisson_ratio},
+                                             {"Density",
+                                              "the scene gives no density, and inertia needs it",
+                                              "a number > 0 [kg/m^3], such as 7850 for steel",
+                                              scene.solver.is_dynamic()}};
+        std::vector<InputError> missing;
+        for (const Constant &constant : constants)
+          if (constant.is_needed && !file.gives(section + "/" + constant.name) &&
+              !file.gives("Material/" + constant.name))
+            missing.push_back(InputError(constant.problem)
+                                .parameter(section + "/" + constant.name)
+                                .allowed(constant.allowed));
+        return missing;
+      };
+      std::vector<InputError> missing = look("Material", scene.material.body);
+      scene.material.body_is_given    = missing.empty();
+      if (!scene.material.groups.empty())
+        missing.clear();
+      for (const auto &group : scene.material.groups)
+        for (const InputError &error : look("Material/" + group.first, group.second))
+          missing.push_back(error);
+      for (const InputError &error : missing)
+        mistakes.add(error);
+    }
+
     /// Reads texts that are formulas or points, to find those that are not.
     template <int dim>
     void read_texts(const SceneParameters &scene, InputErrorCollector &mistakes)
@@ -159,6 +201,7 @@ namespace perideal
     const auto          not_read = file.apply(prm, errors);
     check_values(scene, mistakes);
     resolve(scene);
+    ask_for_constants(file, scene, mistakes);
     scene.warnings = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
     for (const InputError &mistake : mistakes.list())
       if (!follows_from(mistake.parameter(), not_read) && !is_inherited(mistake.parameter(), file, mistakes))

@@ -21,12 +21,18 @@ namespace perideal
         declare_inherited(prm, file, section, name, value, meaning, Double());
       };
       properties.symmetry.declare(prm, file, section);
+      declare("Young modulus",
+              properties.young_modulus,
+              "Young's modulus E > 0 [Pa] of an isotropic material; the scene must give it, the default is "
+              "nobody's");
       declare(
-        "Young modulus", properties.young_modulus, "Young's modulus E > 0 [Pa] of an isotropic material");
-      declare("Poisson ratio",
-              properties.poisson_ratio,
-              "Poisson's ratio, -1 < nu < 0.5 [-], of an isotropic material");
-      declare("Density", properties.density, "Mass density > 0 [kg/m^3], of dynamics");
+        "Poisson ratio",
+        properties.poisson_ratio,
+        "Poisson's ratio, -1 < nu < 0.5 [-], of an isotropic material; the scene must give it unless the "
+        "model has one of its own");
+      declare("Density",
+              properties.density,
+              "Mass density > 0 [kg/m^3], of dynamics, where the scene must give it");
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/problem/body.h>
@@ -16,6 +17,26 @@ namespace perideal
         if (mesh.material_id(group.first, "Material/" + group.first) == id)
           return group.second;
       return materials.body;
+    }
+
+    /// Where the section Material serves named groups only, every group needs its own.
+    template <int dim>
+    void check_groups(const Mesh<dim> &mesh, const MaterialParameters &materials)
+    {
+      if (materials.body_is_given || materials.groups.empty())
+        return;
+      for (const auto id : mesh.material_ids)
+        if (&properties_on(mesh, materials, id) == &materials.body)
+          {
+            const std::string name = mesh.material_name(id);
+            throw InputError(
+              "the group " + name +
+              " of the mesh has no material: others have their own, and the section Material gives none "
+              "for the rest")
+              .parameter("Material/" + name)
+              .allowed("a subsection " + name +
+                       " in Material, or the constants in the section Material itself");
+          }
     }
   } // namespace
 
@@ -35,6 +56,7 @@ namespace perideal
       mesh->boundary_id(name, "Output/Boundary stress");
     for (const auto &group : parameters.material.groups)
       mesh->material_id(group.first, "Material/" + group.first);
+    check_groups(*mesh, parameters.material);
     solids = solids_on(*mesh);
   }
 

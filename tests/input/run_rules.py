@@ -22,11 +22,17 @@ from pathlib import Path
 # One thread a rank; Open MPI may run as root (containers).
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
+ISOTROPIC = "  set Young modulus = 70e9\n  set Poisson ratio = 0.33\n"
 SCENE = """
 subsection Mesh
   set Generator = box
   set Cells = {cells}
   set Refinements = 1
+end
+subsection Material
+  set Young modulus = 70e9
+  set Poisson ratio = 0.33
+  set Density = 2700
 end
 subsection Boundary conditions
   subsection clamp
@@ -87,9 +93,12 @@ def messages(program):
 
 def check(program, rules, settings, dimension):
     """What is wrong with a pair, as texts; and whether it was refused."""
+    scene = f"set Dimension = {dimension}\n" + SCENES[dimension]
+    if any(setting.startswith("Material/Symmetry=") and setting != "Material/Symmetry=isotropic" for setting in settings):
+        scene = scene.replace(ISOTROPIC, "")
     with tempfile.TemporaryDirectory(prefix="perideal-rules-") as name:
         folder = Path(name)
-        (folder / "case.prm").write_text(f"set Dimension = {dimension}\n" + SCENES[dimension], encoding="utf-8")
+        (folder / "case.prm").write_text(scene, encoding="utf-8")
         words = [word for setting in settings for word in ("--set", setting)]
         status, _, err = run(program, "--check", "case.prm", *words, folder=folder)
     if status == 0:

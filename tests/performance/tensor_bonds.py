@@ -27,7 +27,9 @@ subsection Mesh
   set Cells = {cells}
 end
 subsection Material
+  set Young modulus = 70e9
   set Poisson ratio = 0.2
+  set Density = 2700
 end
 subsection Solver
   set Preconditioner = none

@@ -48,6 +48,8 @@ namespace perideal
     FailureCriterion failure_criterion = "none";
     /// Properties of cells in no named group.
     MaterialProperties body;
+    /// Whether the scene gives the constants of the body; they may be those of named groups only.
+    bool body_is_given = true;
     /// Properties by physical group name (or id).
     std::map<std::string, MaterialProperties> groups;
 

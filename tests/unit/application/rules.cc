@@ -38,6 +38,17 @@ namespace
                              "subsection Boundary conditions\n subsection clamp\n set Boundary = left\n"
                              "  set u_x = 0\n  set u_y = 0\n end\nend\n";
 
+  /// The square of a material: isotropic unless settings give it another symmetry.
+  Reading read_square(const std::vector<std::string> &settings)
+  {
+    const bool is_isotropic = std::none_of(settings.begin(), settings.end(), [](const std::string &setting) {
+      return setting.rfind("Material/Symmetry=", 0) == 0 && setting != "Material/Symmetry=isotropic";
+    });
+    return read(square + "subsection Material\n set Density = 2700\n" +
+                  (is_isotropic ? " set Young modulus = 70e9\n set Poisson ratio = 0.33\n" : "") + "end\n",
+                settings);
+  }
+
   /// A parameter with one of its choices.
   struct Choice
   {
@@ -137,7 +148,7 @@ TEST(Rules, RefuseWhateverIsRefusedOfAllPairs)
           const auto others   = settings_of(choices[b]);
           settings.insert(settings.end(), others.begin(), others.end());
           Reading reading;
-          ASSERT_NO_THROW(reading = read(square, settings)) << settings.front() << ", " << others.front();
+          ASSERT_NO_THROW(reading = read_square(settings)) << settings.front() << ", " << others.front();
           ++pairs;
           refused += !reading.errors.empty();
           for (const InputError &error : reading.errors)
@@ -157,6 +168,40 @@ TEST(Rules, RefuseWhateverIsRefusedOfAllPairs)
   EXPECT_GT(refused, 500u);
 }
 
+/// Nobody wants the constants that a scene does not give.
+TEST(Rules, AskForConstants)
+{
+  const std::string start   = "subsection Mesh\n set Generator = box\nend\n"
+                              "subsection Boundary conditions\n subsection clamp\n set Boundary = left\n"
+                              "  set u_x = 0\n  set u_y = 0\n end\nend\n";
+  const auto        missing = [&](const std::vector<std::string> &settings) {
+    std::vector<std::string> parameters;
+    for (const InputError &error : read(start, settings).errors)
+      parameters.push_back(error.parameter());
+    return parameters;
+  };
+  using Names             = std::vector<std::string>;
+  const std::string young = "Material/Young modulus", poisson = "Material/Poisson ratio";
+  EXPECT_EQ(missing({}), (Names{young, poisson}));
+  EXPECT_EQ(missing({young + "=1e9"}), (Names{poisson}));
+  EXPECT_EQ(missing({young + "=1e9", poisson + "=0.2"}), Names{});
+  EXPECT_EQ(missing({young + "=1e9", "Material/Model=bond based"}), Names{});
+  EXPECT_EQ(missing({"Material/Model=tensor involved",
+                     "Material/Symmetry=cubic",
+                     "Material/Young moduli=1e11",
+                     "Material/Poisson ratios=0.2",
+                     "Material/Shear moduli=4e10"}),
+            Names{});
+  EXPECT_EQ(missing({young + "=1e9", poisson + "=0.2", "Solver/Name=dynamics", "Solver/End time=1"}),
+            (Names{"Material/Density"}));
+  EXPECT_EQ(missing({"Material/core/Young modulus=1e9", "Material/core/Poisson ratio=0.2"}), Names{})
+    << "the mesh may have this group only";
+  EXPECT_EQ(missing({"Material/core/Young modulus=1e9", poisson + "=0.2"}), Names{});
+  EXPECT_EQ(missing({"Material/core/Young modulus=1e9"}), (Names{"Material/core/Poisson ratio"}));
+  EXPECT_EQ(missing({"Material/Yuong modulus=1e9", poisson + "=0.2"}).size(), 1u)
+    << "one message, of the slip";
+}
+
 TEST(Rules, SayAllMistakesAtOnce)
 {
   const Reading reading = read("set Dimensoin = 2\n"
@@ -165,9 +210,10 @@ TEST(Rules, SayAllMistakesAtOnce)
                                "subsection Solver\n set Tolerance = 2\n set Relative damping = 1\nend\n"
                                "subsection Boundary conditions\n subsection pull\n  set Boundary = right\n"
                                "  set t_x = sin(x\n end\nend\n");
-  ASSERT_EQ(reading.errors.size(), 7u);
+  ASSERT_EQ(reading.errors.size(), 8u);
   for (const auto &[line, word] : std::map<std::string, std::string>{{"a.prm:1", "did you mean: Dimension"},
                                                                      {"a.prm:4", "Mesh/Thickness"},
+                                                                     {"a.prm", "no Young's modulus"},
                                                                      {"a.prm:7", "did you mean: ordinary"},
                                                                      {"a.prm:8", "-1 < nu < 0.5"},
                                                                      {"a.prm:11", "Solver/Tolerance"},
@@ -187,20 +233,19 @@ TEST(Rules, SayAllMistakesAtOnce)
 /// What could not be read is not held against anything.
 TEST(Rules, DoNotJudgeWhatWasNotRead)
 {
-  const Reading reading = read(square,
-                               {"Solver/Name=dynamcs",
-                                "Solver/End time=1",
-                                "Initial conditions/v_x=1",
-                                "Precracks/a/Points=0, 0; 1, 1"});
+  const Reading reading = read_square({"Solver/Name=dynamcs",
+                                       "Solver/End time=1",
+                                       "Initial conditions/v_x=1",
+                                       "Precracks/a/Points=0, 0; 1, 1"});
   ASSERT_EQ(reading.errors.size(), 1u);
   EXPECT_NE(std::string(reading.errors.front().what()).find("did you mean: dynamics"), std::string::npos);
-  EXPECT_EQ(read(square, {"Solvr/Name=dynamics", "Initial conditions/v_x=1"}).errors.size(), 1u);
+  EXPECT_EQ(read_square({"Solvr/Name=dynamics", "Initial conditions/v_x=1"}).errors.size(), 1u);
 }
 
 TEST(Rules, SayWhatHasNoEffect)
 {
   const auto warns = [](const std::vector<std::string> &settings, const std::string &path) {
-    const Reading reading = read(square, settings);
+    const Reading reading = read_square(settings);
     EXPECT_TRUE(reading.errors.empty()) << settings.front() << ": " << reading.errors.front().what();
     return std::count_if(reading.warnings.begin(), reading.warnings.end(), [&](const std::string &warning) {
       return warning.rfind(path + " has no effect here", 0) == 0;
@@ -220,8 +265,8 @@ TEST(Rules, SayWhatHasNoEffect)
 /// A mistake in the body's material is not one of each group, which has the value from there.
 TEST(Rules, SayMistakesOfTheBodyOnce)
 {
-  EXPECT_EQ(read(square, {"Material/Poisson ratio=0.7", "Material/plate/Density=1"}).errors.size(), 1u);
-  EXPECT_EQ(read(square, {"Material/Poisson ratio=0.7", "Material/plate/Poisson ratio=0.8"}).errors.size(),
+  EXPECT_EQ(read_square({"Material/Poisson ratio=0.7", "Material/plate/Density=1"}).errors.size(), 1u);
+  EXPECT_EQ(read_square({"Material/Poisson ratio=0.7", "Material/plate/Poisson ratio=0.8"}).errors.size(),
             2u);
 }
 
