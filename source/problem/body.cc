@@ -4,6 +4,13 @@
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/problem/body.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
 namespace perideal
 {
   namespace
@@ -38,6 +45,33 @@ namespace perideal
                        " in Material, or the constants in the section Material itself");
           }
     }
+
+    template <int dim>
+    std::array<dealii::Point<dim>, 2> box_of(const Mesh<dim> &mesh)
+    {
+      constexpr double                  huge = std::numeric_limits<double>::max();
+      std::array<dealii::Point<dim>, 2> box;
+      for (int d = 0; d < dim; ++d)
+        {
+          box[0][d] = huge;
+          box[1][d] = -huge;
+        }
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            for (int d = 0; d < dim; ++d)
+              {
+                box[0][d] = std::min(box[0][d], cell->vertex(v)[d]);
+                box[1][d] = std::max(box[1][d], cell->vertex(v)[d]);
+              }
+      const MPI_Comm communicator = mesh.triangulation.get_communicator();
+      for (int d = 0; d < dim; ++d)
+        {
+          box[0][d] = dealii::Utilities::MPI::min(box[0][d], communicator);
+          box[1][d] = dealii::Utilities::MPI::max(box[1][d], communicator);
+        }
+      return box;
+    }
   } // namespace
 
   template <int dim>
@@ -58,6 +92,18 @@ namespace perideal
       mesh->material_id(group.first, "Material/" + group.first);
     check_groups(*mesh, parameters.material);
     solids = solids_on(*mesh);
+    box    = box_of(*mesh);
+  }
+
+  template <int dim>
+  std::string Body<dim>::box_in_words() const
+  {
+    std::ostringstream text;
+    text << std::setprecision(4);
+    const char *axes[] = {"x", "y", "z"};
+    for (int d = 0; d < dim; ++d)
+      text << (d == 0 ? "" : ", ") << axes[d] << " from " << box[0][d] << " to " << box[1][d];
+    return text.str() + " m";
   }
 
   template <int dim>

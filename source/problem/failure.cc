@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/correspondence_force.h>
 #include <perideal/parameters/stress_criteria.h>
 #include <perideal/problem/failure.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <limits>
@@ -49,6 +52,26 @@ namespace perideal
       return std::any_of(
         precracks.begin(), precracks.end(), [&](const auto &crack) { return crack.crosses(a, b); });
     };
+  }
+
+  template <int dim>
+  void Failure<dim>::check_precracks(const Body<dim> &body, const Families<dim> &families) const
+  {
+    for (std::size_t k = 0; k < precracks.size(); ++k)
+      {
+        const auto cuts_family = [&](const LocalIndex i) {
+          return std::any_of(families.begin(i), families.end(i), [&](const LocalIndex j) {
+            return precracks[k].crosses(families.position[i], families.position[j]);
+          });
+        };
+        unsigned int cuts = 0;
+        for (LocalIndex i = 0; i < families.n_owned() && cuts == 0; ++i)
+          cuts = cuts_family(i) ? 1 : 0;
+        if (dealii::Utilities::MPI::max(cuts, body.nodes->communicator) == 0)
+          throw InputError("this precrack cuts no bond: it lies outside the body, or between nodes")
+            .parameter("Precracks/" + body.parameters.precracks.cracks[k].name)
+            .hint("the body extends over " + body.box_in_words());
+      }
   }
 
   template <int dim>

@@ -44,6 +44,7 @@ namespace perideal
     const Timings::Scope   scope(run.timings, "setup");
     const ModelParameters &model  = parameters.model;
     const auto             is_cut = failure.precrack_test();
+    failure.check_precracks(body, *discretisation.families);
     discretisation.find_parts(body, is_cut);
     if (model.is_linear_only() || model.is_consistent())
       {

@@ -48,6 +48,10 @@ namespace perideal
       void finish(Json &summary) override
       {
         summary["cracks"] = tracker.describe();
+        for (auto &crack : summary["cracks"])
+          if (n_collected > 0 && crack["first_time"].is_null())
+            crack["note"] = "no bond broke where this crack is looked for, " + std::to_string(n_collected) +
+                            " broke elsewhere: move its Origin to the tip from which it grows";
         tracker.write_paths(problem.parameters.output_directory);
       }
 
@@ -59,6 +63,11 @@ namespace perideal
         for (const auto &crack : summary["cracks"].items())
           {
             const Json &figures = crack.value();
+            if (figures.contains("note"))
+              {
+                text += "crack       " + crack.key() + ": " + figures["note"].get<std::string>() + '\n';
+                continue;
+              }
             text += "crack       " + crack.key() + ": from " + number(figures["first_time"]) +
                     " s on, reach " + number(figures["reach"]) + " m, angle " + number(figures["angle"]) +
                     " degrees, speed " + number(figures["speed"]) + " m/s" + describe_branching(figures) +

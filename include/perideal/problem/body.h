@@ -9,6 +9,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,14 +38,19 @@ namespace perideal
     /// Returns the density of a cell group [kg/m^3].
     double density_of(const dealii::types::material_id id) const { return properties_of(id).density; }
 
+    /// The box around the mesh in words.
+    std::string box_in_words() const;
+
     /// Returns the solids of the cell groups of another mesh of the body.
     SolidsByMaterial<dim> solids_on(const Mesh<dim> &mesh) const;
 
-    const SceneParameters         &parameters;
-    std::unique_ptr<Mesh<dim>>     mesh;
-    SolidsByMaterial<dim>          solids;
-    std::unique_ptr<Nodes<dim>>    nodes;
-    std::vector<BoundaryFace<dim>> faces;
+    const SceneParameters     &parameters;
+    std::unique_ptr<Mesh<dim>> mesh;
+    /// Lowest and highest corner of the box around the mesh [m].
+    std::array<dealii::Point<dim>, 2> box;
+    SolidsByMaterial<dim>             solids;
+    std::unique_ptr<Nodes<dim>>       nodes;
+    std::vector<BoundaryFace<dim>>    faces;
   };
 } // namespace perideal
 

@@ -23,6 +23,10 @@ namespace perideal
     /// Returns a test of bonds that precracks cut; empty where there are none. It refers to this object.
     BondPredicate<dim> precrack_test() const;
 
+    /// Every precrack must cut something. Collective.
+    /// @throws InputError naming a precrack that crosses no bond.
+    void check_precracks(const Body<dim> &body, const Families<dim> &families) const;
+
     /// Returns the critical stretch of a material at a horizon [-]; infinity: unbreakable.
     static double
     critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
