@@ -56,7 +56,6 @@ namespace perideal
       {
         problem.weigh();
         prepare_damping();
-        choose_time_step();
         problem.make_force();
         problem.make_failure();
         const Timings::Scope scope(problem.run.timings, "setup");
@@ -85,9 +84,16 @@ namespace perideal
           });
       }
 
-      void prepare_damping() override { forces.make_damping(problem); }
+      void prepare_damping() override
+      {
+        forces.make_damping(problem);
+        choose_time_step();
+      }
 
       double damping() const override { return solver.damping + forces.largest_rate(); }
+
+      /// Of the shortest steps these would take weeks.
+      static constexpr double most_steps = 1e11;
 
       void choose_time_step()
       {
@@ -100,6 +106,16 @@ namespace perideal
         const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
         // A whole number of steps.
         const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
+        if (!std::isfinite(stable_step) || !(stable_step > 0) || !(n_wanted <= most_steps))
+          throw InputError("the run would take " + short_number(n_wanted) + " steps of " +
+                           short_number(wanted) + " s; the largest stable step is " +
+                           short_number(stable_step) + " s")
+            .parameter(solver.time_step > 0 && solver.time_step < 1e-3 * stable_step ? "Solver/Time step" :
+                                                                                       "Solver/End time")
+            .allowed("what makes 1e11 steps at most")
+            .hint("look at Solver/End time and Solver/Time step [s], Material/Density [kg/m^3] and Young "
+                  "modulus [Pa], "
+                  "and at the size of the body [m]");
         time_step = resumed ? resumed->template get<double>("time step") : solver.end_time / n_wanted;
         n_steps   = std::ceil(solver.end_time / time_step - 1e-6);
         if (time_step > stable_step)

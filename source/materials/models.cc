@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 
 /// The list of models: a new one is one file, with its traits in a function of this name, and one line here.
 #define PERIDEAL_MODELS(MODEL)                                                                               \
@@ -163,15 +164,16 @@ namespace perideal
   template <int dim>
   Consistent<dim> create_consistent(const ModelParameters &parameters, const double horizon_factor)
   {
-    return Consistent<dim>(
-      InfluenceFunction(parameters.influence_function), std::stod(parameters.stabilisation), horizon_factor);
+    return Consistent<dim>(InfluenceFunction(parameters.influence_function),
+                           std::strtod(parameters.stabilisation.c_str(), nullptr),
+                           horizon_factor);
   }
 
   template <int dim>
   Correspondence<dim> create_correspondence(const ModelParameters &parameters)
   {
     return Correspondence<dim>(InfluenceFunction(parameters.influence_function),
-                               std::stod(parameters.stabilisation));
+                               std::strtod(parameters.stabilisation.c_str(), nullptr));
   }
 
   template <int dim>
