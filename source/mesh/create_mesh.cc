@@ -20,6 +20,18 @@ namespace perideal
   namespace
   {
     template <int dim>
+    void scale(const double factor, CoarseMesh<dim> &coarse)
+    {
+      if (factor == 1.)
+        return;
+      dealii::GridTools::scale(factor, coarse.triangulation);
+      for (auto &group : coarse.inner_faces)
+        for (auto &face : group.second)
+          for (dealii::Point<dim> &corner : face)
+            corner *= factor;
+    }
+
+    template <int dim>
     void fill(const MeshParameters &parameters,
               MPI_Comm              communicator,
               const std::string    &scene_directory,
@@ -32,6 +44,7 @@ namespace perideal
           const MeshFile file =
             load_mesh_file(parameters.file, scene_directory, dim, parameters.gmsh_time_limit, communicator);
           read_gmsh(file.text, file.path, coarse);
+          scale(parameters.scale, coarse);
         }
     }
 

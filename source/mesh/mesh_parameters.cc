@@ -17,6 +17,12 @@ namespace perideal
       "by the program gmsh; relative paths start from the working directory, then from the scene's. "
       "Empty: take the Generator",
       Anything());
+    prm.add_parameter(
+      "Scale",
+      scale,
+      "Factor on the coordinates of a mesh File, > 0: all lengths are in metres, so that a part "
+      "drawn in millimetres has 0.001 [-]",
+      Double(0.));
     prm.add_parameter("Gmsh time limit",
                       gmsh_time_limit,
                       "How long the program gmsh may take to mesh a .geo File before the run ends, > 0 [s]",
@@ -100,6 +106,15 @@ namespace perideal
                    .parameter("Mesh/File")
                    .given("File = " + file + " and Generator = " + generator)
                    .hint("empty the one that is not meant: set Generator ="));
+    if (!(scale > 0))
+      errors.add(InputError("the factor on coordinates must be positive")
+                   .parameter("Mesh/Scale")
+                   .allowed("a number > 0, such as 0.001 for a part drawn in millimetres"));
+    if (scale != 1. && file.empty())
+      errors.add(
+        InputError("the factor on coordinates is one of a mesh File; a Generator has its Size in metres")
+          .parameter("Mesh/Scale")
+          .allowed("1 with a Generator"));
     if (!(gmsh_time_limit > 0))
       errors.add(InputError("the time limit must be positive")
                    .parameter("Mesh/Gmsh time limit")

@@ -172,6 +172,31 @@ namespace perideal
               "and cracks");
         }
     }
+
+    /// Figures that other units than metres, kilograms and seconds leave behind.
+    template <int dim>
+    void warn_of_units(const Problem<dim> &problem, std::vector<std::string> &result)
+    {
+      double longest = 0;
+      for (int d = 0; d < dim; ++d)
+        longest = std::max(longest, problem.body.box[1][d] - problem.body.box[0][d]);
+      if (longest > 50. || longest < 1e-6)
+        result.push_back(
+          "the body is " + short_number(longest) +
+          " m long. Is that meant? Lengths are in metres: a mesh drawn in millimetres takes Mesh/Scale "
+          "= 0.001");
+      const double unset = MaterialProperties().density;
+      for (const auto id : problem.body.mesh->material_ids)
+        {
+          const MaterialProperties &material = problem.body.properties_of(id);
+          if (material.symmetry.is_isotropic() && material.young_modulus < 1e6 && material.density > 1000. &&
+              (problem.parameters.solver.is_dynamic() || material.density != unset))
+            result.push_back("the material of " + problem.body.mesh->material_name(id) +
+                             " has a Young's modulus of " + short_number(material.young_modulus) +
+                             " Pa and a density of " + short_number(material.density) +
+                             " kg/m^3. Is that meant? Moduli are in pascals: 70 GPa are 70e9");
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -215,6 +240,7 @@ namespace perideal
                              " here: " + problem.body.mesh->material_name(solid.first) +
                              " is not given its " + short_number(given.poisson_ratio));
         }
+    warn_of_units(problem, result);
     warn_of_surfaces(problem, result);
     warn_of_motion(problem, result);
     if (problem.loading.tractions->complete_families())

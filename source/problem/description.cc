@@ -118,6 +118,7 @@ namespace perideal
     const GlobalIndex        n_nodes        = problem.body.nodes->n_global;
     std::ostringstream       out;
     out << "mesh        " << problem.body.mesh->description << '\n'
+        << "body        " << problem.body.box_in_words() << '\n'
         << "nodes       " << grouped(n_nodes) << ", horizon " << parameters.nodes.horizon_factor
         << " spacings, influence " << parameters.model.influence_function << '\n'
         << "bonds       " << grouped(discretisation.families->n_bonds()) << ", neighbours a node "

@@ -31,7 +31,12 @@ namespace perideal
       {
         if (!summary.contains("loads"))
           return {};
-        std::string text, separator = "loads       nodes get of the tractions: ";
+        std::string sum, text, separator = "loads       nodes get of the tractions: ";
+        for (const Json &component : summary["loads"].at("total").at("applied").at("force"))
+          sum += (sum.empty() ? "" : ", ") + short_number(component.get<double>());
+        sum =
+          "loads       add up to (" + sum + ") N" +
+          (dim == 2 ? " over the thickness of " + short_number(problem.body.mesh->thickness) + " m\n" : "\n");
         for (const auto &condition : summary["loads"].at("conditions").items())
           if (condition.value().contains("ratio"))
             {
@@ -39,7 +44,7 @@ namespace perideal
                       short_number(100 * condition.value()["ratio"].get<double>()) + " %";
               separator = ", ";
             }
-        return text.empty() ? text : text + '\n';
+        return sum + (text.empty() ? text : text + '\n');
       }
 
     private:

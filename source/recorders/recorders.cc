@@ -10,6 +10,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -96,6 +97,18 @@ namespace perideal
                   kind.has_motion ? last_time : 2.);
   }
 
+  namespace
+  {
+    template <int dim>
+    double largest_displacement(const Problem<dim> &problem)
+    {
+      double largest = 0;
+      for (const auto &displacement : problem.state.displacement)
+        largest = std::max(largest, displacement.norm());
+      return dealii::Utilities::MPI::max(largest, problem.run.communicator);
+    }
+  } // namespace
+
   template <int dim>
   void Recorders<dim>::finish(const RunReport &report)
   {
@@ -127,6 +140,7 @@ namespace perideal
 
     for (const auto &recorder : recorders)
       run.screen << recorder->describe(result, done);
+    run.screen << "moved       by " << short_number(largest_displacement(problem)) << " m at most\n";
     run.screen << report.lines;
     if (summary.contains("errors") && !summary["errors"].empty())
       run.screen << '\n' << error_table(summary["errors"]);

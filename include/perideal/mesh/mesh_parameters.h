@@ -16,6 +16,8 @@ namespace perideal
   {
     /// A `.msh` (2.2 or 4.1, ASCII) or a `.geo` file; empty: use the generator.
     std::string file;
+    /// Factor on the coordinates of the file.
+    double scale = 1.;
     /// How long the program gmsh may mesh a file [s].
     double gmsh_time_limit = 3600.;
     /// Name of the built-in generator; empty: use the file.

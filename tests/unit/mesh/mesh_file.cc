@@ -148,3 +148,16 @@ TEST(MeshFile, EndsGmshWhenTheTimeIsOver)
                      {"Mesh/File", "rectangles.geo", "within 0.3 s", "Mesh/Gmsh time limit"});
   setenv("PATH", old.c_str(), 1);
 }
+
+TEST(MeshFile, CoordinatesAreScaled)
+{
+  const TemporaryDirectory directory;
+  MeshParameters           parameters;
+  parameters.file  = directory.write("rectangles.geo", rectangles + groups);
+  parameters.scale = 0.001;
+  const auto mesh  = create_mesh<2>(parameters, MPI_COMM_WORLD, "");
+  EXPECT_NEAR(measure(mesh->triangulation), 2e-6, 1e-16);
+  EXPECT_NEAR(boundary_measure(*mesh, "left"), 1e-3, 1e-13);
+  parameters.scale = 0;
+  expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, ""); }, {"Mesh/Scale", "positive"});
+}
