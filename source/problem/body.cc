@@ -90,7 +90,6 @@ namespace perideal
       mesh->boundary_id(name, "Output/Boundary stress");
     for (const auto &group : parameters.material.groups)
       mesh->material_id(group.first, "Material/" + group.first);
-    check_groups(*mesh, parameters.material);
     solids = solids_on(*mesh);
     box    = box_of(*mesh);
   }
@@ -123,6 +122,7 @@ namespace perideal
   template <int dim>
   SolidsByMaterial<dim> Body<dim>::solids_on(const Mesh<dim> &other) const
   {
+    check_groups(other, parameters.material);
     SolidsByMaterial<dim> result;
     for (const auto id : other.material_ids)
       result[id] =
