@@ -201,7 +201,11 @@ namespace perideal
     const auto          not_read = file.apply(prm, errors);
     check_values(scene, mistakes);
     resolve(scene);
-    ask_for_constants(file, scene, mistakes);
+    // What is missing may stand in a line that was not understood.
+    if (std::all_of(errors.list().begin(), errors.list().end(), [](const InputError &error) {
+          return !error.parameter().empty();
+        }))
+      ask_for_constants(file, scene, mistakes);
     scene.warnings = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
     for (const InputError &mistake : mistakes.list())
       if (!follows_from(mistake.parameter(), not_read) && !is_inherited(mistake.parameter(), file, mistakes))
