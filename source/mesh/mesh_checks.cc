@@ -129,7 +129,7 @@ namespace perideal
       if (n_bad > 0)
         throw mesh_error(mesh, first)
           .hint(mesh.element_numbers.empty() ?
-                  "choose other sizes of the generator" :
+                  "choose other sizes of the generator, or a smaller Mesh/Distortion" :
                   "subdivision (Mesh.SubdivisionAlgorithm) folds cells at curved boundaries: choose smaller "
                   "sizes "
                   "there (Mesh.CharacteristicLengthFromCurvature = 1; Mesh.CharacteristicLengthMax), let an "

@@ -110,7 +110,7 @@ namespace perideal
       errors.add(InputError("the factor on coordinates must be positive")
                    .parameter("Mesh/Scale")
                    .allowed("a number > 0, such as 0.001 for a part drawn in millimetres"));
-    if (scale != 1. && file.empty())
+    else if (scale != 1. && file.empty())
       errors.add(
         InputError("the factor on coordinates is one of a mesh File; a Generator has its Size in metres")
           .parameter("Mesh/Scale")

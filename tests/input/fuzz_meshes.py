@@ -95,7 +95,7 @@ $EndElements
 NUMBERS = ["0", "-1", "1", "7", "2147483647", "2147483648", "4294967295", "18446744073709551615", "99999999999999999999",
            "1e308", "-1e308", "1e-320", "nan", "inf", "0x10", "1,5", "", "a", "1e", "\u00e9"]
 WORDS_OF_OTHERS = re.compile(r"dealii|deal\.II|p4est|Exc[A-Z]|terminate called|Assertion|std::|MPI_|HDF5|internal error")
-OWN_LINE = re.compile(r"^(perideal: |  [a-z ]+:  *)")
+OWN_LINE = re.compile(r"^(perideal: |\(\d+\) |  [a-z ]+:  *)")
 
 
 def cube_22():
