@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 
 namespace perideal
@@ -63,6 +64,15 @@ namespace perideal
       for (std::size_t at; (at = text.find(theirs)) != std::string::npos;)
         text.replace(at, theirs.size(), ours);
     return text;
+  }
+
+  std::string decimal_comma(const std::string &value)
+  {
+    static const std::regex number("([-+]?[0-9]*),([0-9]+([eE][-+]?[0-9]+)?)");
+    std::smatch             parts;
+    if (!std::regex_match(value, parts, number))
+      return "";
+    return "numbers are written with a decimal point: " + parts.str(1) + "." + parts.str(2);
   }
 
   namespace

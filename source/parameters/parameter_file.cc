@@ -11,7 +11,6 @@
 #include <array>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -148,16 +147,6 @@ namespace perideal
         {{{"Boundary conditions/Traction treatment", "printed line to point"}}, "published line to point"}};
       const auto found = past.find({{assignment.path(), assignment.value}});
       return found == past.end() ? assignment.value : found->second;
-    }
-
-    /// Advice for a number such as "70,5e9", nothing for other texts.
-    std::string decimal_comma(const std::string &value)
-    {
-      static const std::regex number("([-+]?[0-9]*),([0-9]+([eE][-+]?[0-9]+)?)");
-      std::smatch             parts;
-      if (!std::regex_match(value, parts, number))
-        return "";
-      return "numbers are written with a decimal point: " + parts.str(1) + "." + parts.str(2);
     }
 
     /// Sets one value; false when it does not match the pattern.

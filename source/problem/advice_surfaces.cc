@@ -45,10 +45,12 @@ namespace perideal
                 if constexpr (dim == 2)
                   normal = cross_product_2d(face->vertex(1) - face->vertex(0));
                 else
-                  normal = cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
+                  normal =
+                    cross_product_3d(face->vertex(3) - face->vertex(0), face->vertex(2) - face->vertex(1));
                 sum += (normal * outward > 0 ? magnitude : -magnitude) / normal.norm() * normal;
                 area += magnitude;
-                horizon = std::max(horizon, body.nodes->horizon[body.nodes->node_of_cell[cell->active_cell_index()]]);
+                horizon =
+                  std::max(horizon, body.nodes->horizon[body.nodes->node_of_cell[cell->active_cell_index()]]);
                 for (const unsigned int v : face->vertex_indices())
                   for (int d = 0; d < dim; ++d)
                     {
@@ -66,8 +68,8 @@ namespace perideal
     }
 
     /// Loads on holes that are few horizons wide, which forms that correct families for uniform strain only
-    /// hand to cells that lie in a strain which is far from uniform. Measured with pressure in holes 5 to 40 horizons
-    /// wide: the share of the displacement is once to twice that of the horizon in the hole.
+    /// hand to cells that lie in a strain which is far from uniform. Measured with pressure in holes 5 to 40
+    /// horizons wide: the share of the displacement is once to twice that of the horizon in the hole.
     template <int dim>
     void warn_of_loaded_holes(const Problem<dim> &problem, std::vector<std::string> &result)
     {
@@ -76,11 +78,13 @@ namespace perideal
           {
             const Surroundings<dim> boundary = look_at(condition, problem.body);
             if (boundary.flatness < 0.2 && boundary.horizons > 0.03)
-              result.push_back("the boundary of " + condition.name + " is loaded all around and " +
-                               short_number(1. / boundary.horizons) +
-                               " horizons wide: displacements there are off by about " +
-                               short_number(std::ceil(100. * boundary.horizons)) + " to " +
-                               short_number(std::ceil(200. * boundary.horizons)) + " %, stresses by more: take finer cells, or Material/Form = consistent in statics");
+              result.push_back(
+                "the boundary of " + condition.name + " is loaded all around and " +
+                short_number(1. / boundary.horizons) +
+                " horizons wide: displacements there are off by about " +
+                short_number(std::ceil(100. * boundary.horizons)) + " to " +
+                short_number(std::ceil(200. * boundary.horizons)) +
+                " %, stresses by more: take finer cells, or Material/Form = consistent in statics");
           }
     }
   } // namespace
@@ -104,14 +108,17 @@ namespace perideal
         const bool  is_stiff_in_volume =
           problem.parameters.material.assumption != PlaneAssumption::plane_stress &&
           std::any_of(solids.begin(), solids.end(), [&](const auto &solid) {
-            return solid.second.is_isotropic() && model.constants_of_model(solid.second.isotropic()).poisson_ratio > 0.4;
+            return solid.second.is_isotropic() &&
+                   model.constants_of_model(solid.second.isotropic()).poisson_ratio > 0.4;
           });
-        result.push_back("the " + model.model->name + " model has no surface correction: " + share + "errors of " +
-                         (is_stiff_in_volume ? "tens of per cent are usual where Poisson's ratio is above 0.4" :
-                                               "several per cent are usual"));
+        result.push_back(
+          "the " + model.model->name + " model has no surface correction: " + share + "errors of " +
+          (is_stiff_in_volume ? "tens of per cent are usual where Poisson's ratio is above 0.4" :
+                                "several per cent are usual"));
       }
     // Families of long cells have other numbers of members.
-    if (problem.discretisation.families->statistics().max < whole && problem.body.nodes->max_aspect_ratio < 1.5)
+    if (problem.discretisation.families->statistics().max < whole &&
+        problem.body.nodes->max_aspect_ratio < 1.5)
       result.push_back(
         "the body is nowhere two horizons thick: " + share +
         "bending may be off by tens of per cent: take more cells across it, or Material/Model = "

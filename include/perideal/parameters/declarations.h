@@ -30,6 +30,9 @@ namespace perideal
   /// A pattern description in words.
   std::string describe_pattern(const std::string &pattern);
 
+  /// Advice for a number such as "70,5e9", nothing for other texts.
+  std::string decimal_comma(const std::string &value);
+
   /// Paths of the parameters that have another value than their default.
   std::vector<std::string> changed_parameters(const dealii::ParameterHandler &prm);
 } // namespace perideal
