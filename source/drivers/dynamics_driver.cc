@@ -103,10 +103,14 @@ namespace perideal
           throw InputError("every node is held: nothing is left that could move")
             .parameter("Boundary conditions")
             .hint("hold less of the body, or take smaller cells, of which a boundary holds fewer");
+        if (!(stable_step > 0))
+          throw InputError("the damping leaves no time step that is stable")
+            .parameter(forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping")
+            .hint("a motion of frequency f [1/s] is damped critically by 4 pi f");
         const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
         // A whole number of steps.
         const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
-        if (!std::isfinite(stable_step) || !(stable_step > 0) || !(n_wanted <= most_steps))
+        if (!(n_wanted <= most_steps))
           throw InputError("the run would take " + short_number(n_wanted) + " steps of " +
                            short_number(wanted) + " s; the largest stable step is " +
                            short_number(stable_step) + " s")

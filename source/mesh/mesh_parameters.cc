@@ -83,7 +83,7 @@ namespace perideal
                       Integer(1, 50));
     prm.add_parameter("Thickness",
                       thickness,
-                      "Thickness of a two-dimensional body, > 0; without meaning in 3-D [m]",
+                      "Thickness of a two-dimensional body, >= 1e-12; without meaning in 3-D [m]",
                       Double(0.));
     prm.add_parameter(
       "Cylinders",
@@ -119,9 +119,11 @@ namespace perideal
       errors.add(InputError("the time limit must be positive")
                    .parameter("Mesh/Gmsh time limit")
                    .allowed("a number > 0 [s]"));
-    if (!(thickness > 0))
-      errors.add(
-        InputError("the thickness must be positive").parameter("Mesh/Thickness").allowed("a number > 0 [m]"));
+    // Volumes of nodes, their inverses and their squares are to be numbers.
+    if (!(thickness >= 1e-12))
+      errors.add(InputError("the thickness must be positive, and no less than an atom")
+                   .parameter("Mesh/Thickness")
+                   .allowed("a number >= 1e-12 [m]"));
     if (refine_times > 0 && refine_at.empty())
       errors.add(InputError("no boundary is named to refine at")
                    .parameter("Mesh/Refine at")
