@@ -124,7 +124,7 @@ def record(path, arguments, counts, n_bad, seconds):
         if is_new:
             file.write("version,seed,cases," + ",".join(f"{kind} (done/refused/failed)" for kind in KINDS) + ",deviating,seconds\n")
         shares = [f"{counts[kind, 0]}/{counts[kind, 1]}/{counts[kind, 2]}" for kind in KINDS]
-        file.write(f"{version},{arguments.seed},{arguments.cases},{','.join(shares)},{n_bad},{seconds:.0f}\n")
+        file.write(f"{version},{arguments.seed},{sum(counts.values())},{','.join(shares)},{n_bad},{seconds:.0f}\n")
 
 
 def main():
