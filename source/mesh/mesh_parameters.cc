@@ -121,7 +121,7 @@ namespace perideal
                    .allowed("a number > 0 [s]"));
     // Volumes of nodes, their inverses and their squares are to be numbers.
     if (!(thickness >= 1e-12))
-      errors.add(InputError("the thickness must be positive, and no less than an atom")
+      errors.add(InputError("the thickness must be positive")
                    .parameter("Mesh/Thickness")
                    .allowed("a number >= 1e-12 [m]"));
     if (refine_times > 0 && refine_at.empty())

@@ -37,10 +37,19 @@ namespace perideal
     std::vector<dealii::SymmetricTensor<2, dim>> strains_of_families(const Problem<dim> &problem)
     {
       const Families<dim> &families = *problem.discretisation.families;
-      NodalVector          unknowns, displacement(families.make_partitioner(dim));
-      problem.system->initialize_all(unknowns);
-      problem.system->mirror_layer().extend(problem.state.unknowns, true, unknowns);
-      displacement.copy_locally_owned_data_from(unknowns);
+      NodalVector          displacement(families.make_partitioner(dim));
+      if (problem.system)
+        {
+          // Mirrored nodes have displacements too.
+          NodalVector all;
+          problem.system->initialize_all(all);
+          problem.system->mirror_layer().extend(problem.state.unknowns, true, all);
+          displacement.copy_locally_owned_data_from(all);
+        }
+      else
+        for (LocalIndex i = 0; i < problem.state.displacement.size(); ++i)
+          for (int d = 0; d < dim; ++d)
+            displacement.local_element(dim * i + d) = problem.state.displacement[i][d];
       displacement.update_ghost_values();
 
       FamilyFit<dim> fit(families, displacement);

@@ -15,6 +15,7 @@ end
 subsection Material
   set Young modulus = 70e9
   set Poisson ratio = 0.3
+  set Density = 2700
 end
 subsection Boundary conditions
   subsection a

@@ -31,6 +31,9 @@ end
 subsection Material
   set Model = {model}
   set Form = {form}
+  set Young modulus = 70e9
+  set Poisson ratio = 0.3
+  set Density = 2700
 end
 subsection Solver
   set Name = {solver}

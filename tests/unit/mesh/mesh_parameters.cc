@@ -53,7 +53,7 @@ TEST(MeshParameters, AsksForOneMesh)
   expect_input_error([&] { parameters.check(); }, {"Mesh/File", "two meshes", "a.msh"});
   parameters.file.clear();
   parameters.thickness = 0.;
-  expect_input_error([&] { parameters.check(); }, {"Mesh/Thickness", "> 0"});
+  expect_input_error([&] { parameters.check(); }, {"Mesh/Thickness", ">= 1e-12"});
   parameters.thickness         = 1.;
   parameters.cylinders["hole"] = {};
   expect_input_error([&] { parameters.check(); }, {"Mesh/Cylinders"});
