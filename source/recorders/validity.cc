@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace perideal
 {
@@ -104,34 +103,28 @@ namespace perideal
         return dealii::Utilities::MPI::max(largest, problem.run.communicator);
       }
 
-      /// From the ends of bonds: their elongation, and how far they move across the bond, over its length
-      /// [-]. Collective.
+      /// From cells that share a face: how their nodes move along and across their line, over its length [-].
+      /// Collective.
       void find_largest_strain()
       {
-        const Families<dim> &families = *problem.discretisation.families;
-        const auto          &u        = problem.state.displacement;
-        // Not a number at nodes outside of the body, of which no bond counts here.
-        NodalVector displacement(families.make_partitioner(dim));
-        for (LocalIndex i = 0; i < families.n_owned(); ++i)
-          for (int d = 0; d < dim; ++d)
-            displacement.local_element(dim * i + d) =
-              i < u.size() ? u[i][d] : std::numeric_limits<double>::quiet_NaN();
-        displacement.update_ghost_values();
-        Linear found;
-        for (LocalIndex i = 0; i < std::min<std::size_t>(families.n_owned(), u.size()); ++i)
-          for (const LocalIndex *j = families.begin(i); j != families.end(i); ++j)
-            {
-              const auto             bond = families.position[*j] - families.position[i];
-              dealii::Tensor<1, dim> moved;
-              for (int d = 0; d < dim; ++d)
-                moved[d] = displacement.local_element(dim * *j + d) - u[i][d];
-              const double along  = moved * bond / bond.norm_square();
-              const double across = (moved - along * bond).norm() / bond.norm();
-              if (std::abs(along) > found.strain)
-                found.strain = std::abs(along);
-              if (across > found.rotation)
-                found.rotation = across;
-            }
+        const Nodes<dim> &nodes = *problem.body.nodes;
+        const auto       &u     = problem.state.displacement;
+        Linear            found;
+        for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const unsigned int f : cell->face_indices())
+              if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+                  cell->neighbor(f)->is_locally_owned())
+                {
+                  const LocalIndex i      = nodes.node_of_cell[cell->active_cell_index()];
+                  const LocalIndex j      = nodes.node_of_cell[cell->neighbor(f)->active_cell_index()];
+                  const auto       line   = nodes.position[j] - nodes.position[i];
+                  const auto       moved  = u[j] - u[i];
+                  const double     along  = moved * line / line.norm_square();
+                  const double     across = (moved - along * line).norm() / line.norm();
+                  found.strain            = std::max(found.strain, std::abs(along));
+                  found.rotation          = std::max(found.rotation, across);
+                }
         linear.strain   = dealii::Utilities::MPI::max(found.strain, problem.run.communicator);
         linear.rotation = dealii::Utilities::MPI::max(found.rotation, problem.run.communicator);
       }
