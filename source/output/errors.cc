@@ -69,6 +69,4 @@ namespace perideal
   template struct Instance<&field_errors<2, dealii::SymmetricTensor<2, 3>>>;
   template struct Instance<&field_errors<3, dealii::SymmetricTensor<2, 3>>>;
   PERIDEAL_INSTANTIATE(profile_errors)
-
-  // The number 2 of std::array<double, 2> is no int, so it must be said here.
 } // namespace perideal

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+# The loops in which runs spend their time.
+set(hot_sources
+  base/least_squares.cc
+  nodes/cell_graph.cc
+  nodes/curve_order.cc
+  nodes/nodes.cc
+  neighbourhood/bond_list.cc
+  neighbourhood/components.cc
+  neighbourhood/connected_parts.cc
+  neighbourhood/families.cc
+  neighbourhood/halo.cc
+  neighbourhood/point_tree.cc
+  reconstruction/face_gradient.cc
+  reconstruction/linear_interpolation.cc
+  operators/weights/correspondence_rows.cc
+  operators/weights/correspondence_rows_matrix.cc
+  operators/weights/family_weights.cc
+  operators/weights/tensor_weights.cc
+  operators/force/contact_force.cc
+  operators/force/correspondence_force.cc
+  operators/force/family_force.cc
+  operators/force/family_force_energy.cc
+  operators/force/family_force_failure.cc
+  operators/force/family_force_loops.cc
+  operators/force/family_force_reweigh.cc
+  operators/force/relative_damping.cc
+  operators/force/tensor_force.cc
+  operators/linear/bond_operator.cc
+  operators/linear/consistent_operator.cc
+  operators/linear/consistent_operator_loops.cc
+  operators/linear/consistent_operator_matrix.cc
+  operators/linear/correspondence_tangent.cc
+  operators/linear/family_operator.cc
+  operators/linear/family_operator_loops.cc
+  operators/linear/family_operator_matrix.cc
+  operators/linear/gauss_operator.cc
+  operators/linear/tangent_operator.cc
+  operators/linear/tensor_operator.cc
+  operators/system/auxiliary_space.cc
+  operators/system/block_jacobi.cc
+  operators/system/constrained_operator.cc
+  operators/system/null_space.cc
+)
