@@ -7,7 +7,6 @@
 
 import argparse
 import json
-import os
 import resource
 import shlex
 import signal
@@ -17,8 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+from execute import environment, start
 LIMIT = 120  # seconds, for a machine that is busy
 SCENE = """set Dimension = 2
 set Output directory = output
@@ -79,8 +77,7 @@ class Directory:
         return launcher + [self.program, "case.prm", *[word for text in overrides for word in ("--set", text)]]
 
     def start(self, *overrides, file_size=None):
-        process = subprocess.Popen(self.command(overrides), cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True, env={**ENVIRONMENT, **os.environ})
+        process = start(self.command(overrides), self.folder, tempfile.mkdtemp(dir=self.folder), text=True)
         if file_size is not None:
             # Open MPI writes large files of its own before.
             while not (self.output / "perideal.lock").exists() and process.poll() is None:
@@ -101,7 +98,7 @@ class Directory:
         """(exit status, stdout, stderr), of which nothing is not ours."""
         if ranks > 1:
             result = subprocess.run(self.command(overrides, ranks), cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
-                                    text=True, timeout=LIMIT, check=False, env={**ENVIRONMENT, **os.environ})
+                                    text=True, timeout=LIMIT, check=False, env=environment(tempfile.mkdtemp(dir=self.folder)))
             status, out, err = result.returncode, result.stdout, result.stderr
         else:
             process = self.start(*overrides, file_size=file_size)

@@ -32,8 +32,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+from execute import environment
+
 TOLERANCE = {"relative", "absolute"}
 # By the key that tells the kind of a check: the keys that it may have besides "why".
 KINDS = {
@@ -175,7 +175,7 @@ def report(checks, run):
 def execute(command, seconds):
     """(exit status, all that was printed); the status is None when the time is over."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               env={**ENVIRONMENT, **os.environ}, start_new_session=True)
+                               env=environment(), start_new_session=True)
     try:
         text, _ = process.communicate(timeout=seconds)
         status = process.returncode

@@ -26,7 +26,7 @@ import time
 from pathlib import Path
 
 from generators import GENERATORS, RESUMED, flipped, parameters, plain
-from judge import ENVIRONMENT, run
+from judge import environment, run
 
 LIMIT = 20  # seconds a run
 KINDS = [*GENERATORS, "restart"]
@@ -119,7 +119,7 @@ def record(path, arguments, counts, n_bad, seconds):
     is_new = not path.exists()
     path.parent.mkdir(exist_ok=True)
     version = subprocess.run([arguments.program, "--version"], capture_output=True, text=True, check=True,
-                             env={**ENVIRONMENT, **os.environ}).stdout.splitlines()[0]
+                             env=environment()).stdout.splitlines()[0]
     with path.open("a", encoding="utf-8") as file:
         if is_new:
             file.write("version,seed,cases," + ",".join(f"{kind} (done/refused/failed)" for kind in KINDS) + ",deviating,seconds\n")
@@ -143,7 +143,7 @@ def main():
     arguments.show = arguments.show or arguments.case is not None
     began = time.monotonic()
     listed = subprocess.run([arguments.program, "--parameters", "markdown"], capture_output=True, text=True, check=True,
-                            env={**ENVIRONMENT, **os.environ}).stdout
+                            env=environment()).stdout
     known = parameters(listed)
     if len(known) < 100:
         sys.exit("the list of parameters is not read")

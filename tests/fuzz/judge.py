@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the program on an input and tells what a user must never see."""
 
-import os
 import re
 import resource
-import signal
-import subprocess
+import sys
+from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from execute import environment, execute
+
 # What is not ours, in anything that is printed.
 FOREIGN = re.compile(r"HDF5-DIAG|An error occurred in|terminate called|[Ss]tack ?trace|Exception on processing|muParser|"
                      r"internal error|dealii::|deal\.II exception|Assertion|what\(\):|\[json\.exception|MPI_ABORT|Segmentation|"
@@ -49,21 +50,8 @@ class Result:
 
 def run(command, folder, seconds):
     """Runs a command in a folder of its own."""
-    temporary = folder / "temporary"
-    temporary.mkdir(exist_ok=True)
-
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-    with subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          start_new_session=True, preexec_fn=limit,
-                          env={**ENVIRONMENT, **os.environ, "TMPDIR": str(temporary)}) as process:
-        try:
-            out, err = process.communicate(timeout=seconds)
-            status = process.returncode
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)  # the group of our own child
-            out, err = process.communicate()
-            status = None
-    return Result(status, out.decode(errors="replace"), err.decode(errors="replace"))
+    return Result(*execute(command, folder, seconds, preexec_fn=limit))

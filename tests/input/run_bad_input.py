@@ -23,15 +23,15 @@ import concurrent.futures
 import json
 import os
 import shlex
-import signal
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+sys.path.insert(0, str(HERE.parent))
+
+from execute import execute
+
 KEYS = {"name", "base", "replace", "set", "files", "arguments", "ranks", "exit", "says"}
 
 
@@ -74,24 +74,6 @@ def command_line(case, ranks, program, mpirun):
             arguments += ["--set", override]
     launcher = shlex.split(mpirun) + ["-n", str(ranks)] if ranks > 1 else []
     return launcher + [program] + arguments
-
-
-def execute(command, folder, seconds):
-    """(exit status, stdout, stderr); the status is None when the time is over."""
-    # Runs side by side must not share the folder of Open MPI's sessions.
-    temporary = folder / "temporary"
-    temporary.mkdir()
-    process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, start_new_session=True,
-                               env={**ENVIRONMENT, **os.environ, "TMPDIR": str(temporary)})
-    try:
-        out, err = process.communicate(timeout=seconds)
-        status = process.returncode
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)  # the group of our own child
-        out, err = process.communicate()
-        status = None
-    return status, out.decode(errors="replace"), err.decode(errors="replace")
 
 
 def deviations(case, status, out, err, folder, seconds):

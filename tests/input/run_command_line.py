@@ -15,14 +15,13 @@ import tempfile
 import time
 from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from execute import execute, start
 
 
 def run(program, *arguments, folder):
-    process = subprocess.run([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
-                             timeout=60, check=False, env={**ENVIRONMENT, **os.environ})
-    return process.returncode, process.stdout.decode(), process.stderr.decode()
+    return execute([program, *arguments], folder, 60)
 
 
 def without_surroundings(err):
@@ -98,9 +97,8 @@ def interrupted_gmsh(program, folder):
     (folder / "gmsh").chmod(0o755)
     (folder / "part.geo").write_text("Point(1) = {0, 0, 0};\n", encoding="utf-8")
     (folder / "gmsh.prm").write_text(TENSORS.replace("set Generator = box", "set File = part.geo"), encoding="utf-8")
-    process = subprocess.Popen([program, "gmsh.prm", "--set", "Material/Young modulus=1e9", "--set", "Material/Poisson ratio=0.3"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE,
-                               env={**ENVIRONMENT, **os.environ, "PATH": f"{folder}:{os.environ['PATH']}"})
+    command = ["env", f"PATH={folder}:{os.environ['PATH']}", program, "gmsh.prm"]
+    process = start([*command, "--set", "Material/Young modulus=1e9", "--set", "Material/Poisson ratio=0.3"], folder, folder)
     started = folder / "started"
     for _ in range(300):
         if started.exists() and started.read_text(encoding="utf-8").strip():

@@ -14,13 +14,13 @@ import itertools
 import os
 import random
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from execute import execute
 
 ISOTROPIC = "  set Young modulus = 70e9\n  set Poisson ratio = 0.33\n"
 SCENE = """
@@ -67,9 +67,7 @@ OTHERS = ["no use for this", "families that are not whole", "no family is whole"
 
 
 def run(program, *arguments, folder="."):
-    process = subprocess.run([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
-                             timeout=300, check=False, env={**ENVIRONMENT, **os.environ})
-    return process.returncode, process.stdout.decode(errors="replace"), process.stderr.decode(errors="replace")
+    return execute([program, *arguments], folder)
 
 
 def choices(program):

@@ -20,9 +20,11 @@ import tempfile
 import time
 from pathlib import Path
 
-# One thread a rank; Open MPI may run as root (containers).
-ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1"}
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from execute import start
+
+os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
 LIMIT = 300  # seconds, for a machine that is busy
 BODY = """set Dimension = 2
 set Output directory = output
@@ -85,9 +87,8 @@ class Case:
         settings = [f"Checkpoints/Steps={self.interval}"] if self.interval else []
         settings += ["Checkpoints/Restart=true"] if restart else []
         launcher = self.mpirun + ["-n", str(ranks)] if ranks > 1 else []
-        return subprocess.Popen([*launcher, self.program, "case.prm", *[word for text in settings for word in ("--set", text)]],
-                                cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                env={**ENVIRONMENT, **os.environ, "TMPDIR": str(self.folder / "temporary")})
+        command = [*launcher, self.program, "case.prm", *[word for text in settings for word in ("--set", text)]]
+        return start(command, self.folder, self.folder / "temporary", text=True)
 
     def finish(self, process, what):
         try:
