@@ -12,7 +12,13 @@ set(hot_sources
   neighbourhood/families.cc
   neighbourhood/halo.cc
   neighbourhood/point_tree.cc
+  reconstruction/cell_polynomials.cc
   reconstruction/face_gradient.cc
+  reconstruction/face_moments.cc
+  reconstruction/quadratic_fit.cc
+  operators/weights/gradient_moments.cc
+  operators/weights/gradient_moments_loops.cc
+  operators/weights/gradient_rows.cc
   reconstruction/linear_interpolation.cc
   operators/weights/correspondence_rows.cc
   operators/weights/correspondence_rows_matrix.cc

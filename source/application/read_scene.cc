@@ -189,6 +189,8 @@ namespace perideal
                         scene.solver.is_linear_static() ? Use::statics :
                                                           Use::motion);
     resolve_treatments(scene.loads, scene.model.is_consistent());
+    if (const double own = scene.model.form_traits().defaults.horizon_factor; own > 0)
+      scene.nodes.horizon_factor = own;
     // The consistent form leaves the choice to the mesh.
     if (scene.nodes.horizon_shape == HorizonShape::automatic && !scene.model.is_consistent())
       scene.nodes.horizon_shape = HorizonShape::sphere;

@@ -9,10 +9,9 @@
 namespace perideal
 {
   template <int dim>
-  FaceValues<dim>::FaceValues(const FaceGradient<dim> &gradient, const Loads<dim> &loads)
+  FaceValues<dim>::FaceValues(const std::vector<BoundaryPoint<dim>> &points, const Loads<dim> &loads)
     : n_conditions(loads.conditions.size())
   {
-    const auto &points = gradient.boundary_points();
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         Entry entry{p, points[p].point, {}, {}, {}};

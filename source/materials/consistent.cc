@@ -17,6 +17,7 @@ namespace perideal
     result.solvers                     = {false, false, false};
     result.defaults.influence_function = "cubic spline";
     result.defaults.stabilisation      = {{1.1, 0.5}};
+    result.defaults.horizon_factor     = 2.01;
     return result;
   }
 

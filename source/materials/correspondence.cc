@@ -96,7 +96,8 @@ namespace perideal
     {
       // Penalties: as published with the gradient of the family, of the smallest errors with that of the
       // faces. Tangents serve statics and load steps.
-      FormTraits consistent = consistent_form(), family;
+      FormTraits consistent              = consistent_form(), family;
+      consistent.defaults.horizon_factor = 0.;
       for (FormTraits *form : {&consistent, &family})
         {
           form->defaults.influence_function = "gaussian";

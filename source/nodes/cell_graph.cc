@@ -13,7 +13,7 @@
 namespace perideal
 {
   template <int dim>
-  CellGraph<dim>::CellGraph(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
+  CellGraph<dim>::CellGraph(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const GhostLayers layers)
     : position(nodes.position)
     , material(nodes.material)
     , communicator(nodes.communicator)
@@ -24,8 +24,15 @@ namespace perideal
   {
     exchange_ghosts(mesh);
     collect_cells_at_vertices(mesh);
-    if (mesh.material_ids.size() > 1)
-      exchange_second_layer(mesh);
+    if (layers == GhostLayers::two || mesh.material_ids.size() > 1)
+      exchange_second_layer(mesh, layers);
+    if (layers == GhostLayers::two)
+      {
+        around_owned.resize(n_owned_nodes);
+        for (const Cell &cell : mesh.triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            around_owned[node_of(cell)] = cells_around(cell);
+      }
     local_number_of_ghost.clear();
   }
 
@@ -107,7 +114,7 @@ namespace perideal
   }
 
   template <int dim>
-  void CellGraph<dim>::exchange_second_layer(const Mesh<dim> &mesh)
+  void CellGraph<dim>::exchange_second_layer(const Mesh<dim> &mesh, const GhostLayers layers)
   {
     using Ghosts = std::vector<Ghost>;
     std::vector<std::pair<LocalIndex, Ghosts>> received;
@@ -116,7 +123,8 @@ namespace perideal
       [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghosts> {
         const auto around = cells_around(cell);
         const auto own    = material[node_of(cell)];
-        if (std::all_of(around.begin(), around.end(), [&](LocalIndex i) { return material[i] == own; }))
+        if (layers == GhostLayers::one &&
+            std::all_of(around.begin(), around.end(), [&](LocalIndex i) { return material[i] == own; }))
           return {};
         Ghosts result;
         for (const LocalIndex i : around)
@@ -131,6 +139,14 @@ namespace perideal
           around.push_back(add_ghost(ghost));
         std::sort(around.begin(), around.end());
       }
+  }
+
+  template <int dim>
+  void CellGraph<dim>::forget_layers()
+  {
+    around_owned.clear();
+    around_owned.shrink_to_fit();
+    around_ghost.clear();
   }
 
   template <int dim>

@@ -34,7 +34,7 @@ namespace perideal
   template <int dim>
   GlobalIndex thin_cells(const Problem<dim> &problem)
   {
-    const auto &deficient = problem.discretisation.gradient->deficient();
+    const auto &deficient = problem.discretisation.deficient_cells();
     return dealii::Utilities::MPI::sum<GlobalIndex>(std::count(deficient.begin(), deficient.end(), true),
                                                     problem.run.communicator);
   }

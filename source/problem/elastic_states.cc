@@ -85,7 +85,7 @@ namespace perideal
   template <int dim>
   bool has_elastic_states(const Problem<dim> &problem)
   {
-    return problem.discretisation.gradient || gradients_of_bonds(problem) != nullptr ||
+    return problem.discretisation.has_gradients() || gradients_of_bonds(problem) != nullptr ||
            needs_strain(problem.parameters.field_names());
   }
 
@@ -103,11 +103,11 @@ namespace perideal
         return result;
       }
     const Nodes<dim> &nodes = *problem.body.nodes;
-    for (const auto &strain : problem.discretisation.gradient ?
-                                compute_nodal_strain(*problem.discretisation.gradient,
-                                                     *problem.loading.supports->face_values(),
-                                                     nodes,
-                                                     problem.state.displacement) :
+    for (const auto &strain : problem.discretisation.has_gradients() ?
+                                problem.discretisation.mean_strains(problem.body,
+                                                                    *problem.loading.supports->face_values(),
+                                                                    problem.state.unknowns,
+                                                                    problem.state.displacement) :
                                 strains_of_families(problem))
       result.push_back(elastic_state<dim>(strain, problem.body.solids.at(nodes.material[result.size()])));
     return result;

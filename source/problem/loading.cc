@@ -43,8 +43,10 @@ namespace perideal
   {
     tractions = create_tractions(
       treated_body(timings),
-      TreatedBonds<dim>{discretisation.families, discretisation.gradient, solids_of_model(body)});
+      TreatedBonds<dim>{
+        discretisation.families, discretisation.gradient, discretisation.moments, solids_of_model(body)});
     discretisation.bonds = tractions->around(discretisation.bonds);
+    moments              = discretisation.moments;
     if (const auto stiffness = tractions->stiffness())
       discretisation.family_stiffness = stiffness;
   }
@@ -70,10 +72,22 @@ namespace perideal
   {
     // No external force acts on nodes that are not those of cells.
     force = 0.;
-    set_body_forces(*body.nodes, loads, time, force);
+    set_body_forces(time, force);
     tractions->add_tractions(loads, time, force);
     tractions->add_given(time, force);
     point_forces.add(loads, time, force);
+  }
+
+  template <int dim>
+  void Loading<dim>::set_body_forces(const double time, NodalVector &force) const
+  {
+    if (!moments)
+      {
+        perideal::set_body_forces(*body.nodes, loads, time, force);
+        return;
+      }
+    if (loads.has_body_force())
+      moments->add_body_forces(*body.mesh, *body.nodes, loads, time, force);
   }
 
   template <int dim>

@@ -48,9 +48,8 @@ namespace perideal
     discretisation.find_parts(body, is_cut);
     if (model.is_linear_only() || model.is_consistent())
       {
-        const Timings::Scope part(run.timings, "setup: face gradient");
-        discretisation.make_gradient(body);
-        loading.supports->make_face_values(*discretisation.gradient);
+        const Timings::Scope part(run.timings, "setup: gradients");
+        loading.supports->make_face_values(discretisation.make_gradients(body));
       }
     {
       const Timings::Scope part(run.timings, "setup: weights");
@@ -120,10 +119,15 @@ namespace perideal
   template <int dim>
   void Problem<dim>::store_displacement()
   {
-    state.displacement.resize(body.nodes->size());
-    for (LocalIndex i = 0; i < body.nodes->size(); ++i)
-      for (int d = 0; d < dim; ++d)
-        state.displacement[i][d] = state.unknowns.local_element(dim * i + d);
+    if (discretisation.moments)
+      state.displacement = discretisation.moments->point_values(state.unknowns);
+    else
+      {
+        state.displacement.resize(body.nodes->size());
+        for (LocalIndex i = 0; i < body.nodes->size(); ++i)
+          for (int d = 0; d < dim; ++d)
+            state.displacement[i][d] = state.unknowns.local_element(dim * i + d);
+      }
     free_motions.remove_mean(*body.nodes, state.displacement);
   }
 

@@ -95,15 +95,17 @@ namespace perideal
 
       void conclude(const Step<dim> &step, const Record &record) override
       {
-        const Body<dim>                      &body     = problem.body;
-        const auto                           &gradient = problem.discretisation.gradient;
+        const Body<dim>                      &body  = problem.body;
+        const CellGraph<dim>                 *graph = problem.discretisation.cell_graph();
         std::unique_ptr<const CellGraph<dim>> own_graph;
-        if (!gradient)
-          own_graph = std::make_unique<const CellGraph<dim>>(*body.mesh, *body.nodes);
+        if (graph == nullptr)
+          {
+            own_graph = std::make_unique<const CellGraph<dim>>(*body.mesh, *body.nodes);
+            graph     = own_graph.get();
+          }
         const Held held = problem.loading.supports->reach_surface() ? Held::at_faces : Held::at_nodes;
-        const SurfaceRecovery<dim> recovery(
-          *body.mesh, gradient ? gradient->graph() : *own_graph, body.solids, problem.loading.loads, held);
-        Json &result = record.summary["boundary_stress"];
+        const SurfaceRecovery<dim> recovery(*body.mesh, *graph, body.solids, problem.loading.loads, held);
+        Json                      &result = record.summary["boundary_stress"];
         for (const std::string &name : problem.parameters.boundary_stress)
           result[name] = record_boundary(name, recovery, step.time);
       }

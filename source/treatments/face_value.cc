@@ -62,6 +62,11 @@ namespace perideal
 
       void add_tractions(const Loads<dim> &given, const double time, NodalVector &force) const override
       {
+        if (this->bonds.moments)
+          {
+            add_to_polynomials(given, time, force);
+            return;
+          }
         const FaceGradient<dim>            &gradient = *this->bonds.gradient;
         const auto                         &points   = gradient.boundary_points();
         const auto                         &rows     = gradient.boundary_rows();
@@ -80,6 +85,24 @@ namespace perideal
         for (LocalIndex i = 0; i < this->body.nodes.size(); ++i)
           for (int d = 0; d < dim; ++d)
             force.local_element(dim * i + d) += sums[i][d];
+      }
+
+    private:
+      void add_to_polynomials(const Loads<dim> &given, const double time, NodalVector &force) const
+      {
+        const GradientMoments<dim>              &moments = *this->bonds.moments;
+        typename GradientMoments<dim>::CellLoads loads(moments.n_owned());
+        visit_loaded_faces(given,
+                           moments.faces().boundary_points(),
+                           [&](const BoundaryCondition<dim> &condition, const BoundaryPoint<dim> &point) {
+                             const double area = point.area.norm();
+                             moments.add_at(
+                               loads,
+                               point.node,
+                               point.point,
+                               area * Loads<dim>::traction(condition, point.point, point.area / area, time));
+                           });
+        moments.add_nodal_forces(loads, force);
       }
     };
   } // namespace

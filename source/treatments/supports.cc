@@ -15,10 +15,10 @@ namespace perideal
   }
 
   template <int dim>
-  void Supports<dim>::make_face_values(const FaceGradient<dim> &gradient)
+  void Supports<dim>::make_face_values(const std::vector<BoundaryPoint<dim>> &points)
   {
     values = hold_nodes() ? std::make_shared<FaceValues<dim>>() :
-                            std::make_shared<FaceValues<dim>>(gradient, body.loads);
+                            std::make_shared<FaceValues<dim>>(points, body.loads);
   }
 
   template <int dim>

@@ -13,6 +13,24 @@ namespace perideal
   template <int dim>
   void
   set_body_forces(const Nodes<dim> &nodes, const Loads<dim> &loads, const double time, NodalVector &force);
+
+  /// The integral of the body force over a cell [N], and that of its product with the distance from a point
+  /// [N m].
+  template <int dim>
+  struct BodyForce
+  {
+    dealii::Tensor<1, dim> force;
+    dealii::Tensor<2, dim> moment;
+  };
+
+  /// Integrates the body force over the cells of owned nodes by three Gauss points in each direction.
+  /// @param about a point of each cell
+  template <int dim>
+  std::vector<BodyForce<dim>> integrate_body_forces(const Mesh<dim>                       &mesh,
+                                                    const Nodes<dim>                      &nodes,
+                                                    const std::vector<dealii::Point<dim>> &about,
+                                                    const Loads<dim>                      &loads,
+                                                    const double                           time);
 } // namespace perideal
 
 #endif

@@ -3,7 +3,7 @@
 #define perideal_boundary_face_values_h
 
 #include <perideal/parameters/load_parameters.h>
-#include <perideal/reconstruction/face_gradient.h>
+#include <perideal/reconstruction/boundary_point.h>
 
 #include <array>
 #include <vector>
@@ -22,14 +22,15 @@ namespace perideal
     /// Nothing is prescribed.
     FaceValues() = default;
 
-    FaceValues(const FaceGradient<dim> &gradient, const Loads<dim> &loads);
+    /// @param points of the faces at the boundary
+    FaceValues(const std::vector<BoundaryPoint<dim>> &points, const Loads<dim> &loads);
 
     static constexpr unsigned int free = dealii::numbers::invalid_unsigned_int;
 
     /// A boundary point with at least one prescribed component.
     struct Entry
     {
-      /// Number among FaceGradient::boundary_points().
+      /// Number among the boundary points.
       unsigned int       point;
       dealii::Point<dim> position;
       /// Condition that prescribes each component, or `free`.

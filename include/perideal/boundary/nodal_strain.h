@@ -3,6 +3,7 @@
 #define perideal_boundary_nodal_strain_h
 
 #include <perideal/boundary/face_values.h>
+#include <perideal/reconstruction/face_gradient.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -77,6 +77,8 @@ namespace perideal
       std::string influence_function = "constant";
       /// Of Material/Stabilisation, in 2-D and 3-D [-]; 0: nothing is stabilised.
       std::array<double, 2> stabilisation = {{0., 0.}};
+      /// Horizon over spacing that its bonds have whatever Nodes/Horizon factor says; 0: they have that [-].
+      double horizon_factor = 0.;
     };
     Defaults defaults;
   };

@@ -15,6 +15,14 @@
 
 namespace perideal
 {
+  /// How many layers of cells of other ranks a graph knows: those that touch its own, where another material
+  /// lies beside these also what touches them; or always.
+  enum class GhostLayers
+  {
+    one,
+    two
+  };
+
   /**
    * Knows the nodes of this rank's cells and of the cells around them, and which of
    * them meet at each vertex of the mesh.
@@ -29,7 +37,7 @@ namespace perideal
     using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
 
     /// Collective.
-    CellGraph(const Mesh<dim> &mesh, const Nodes<dim> &nodes);
+    CellGraph(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const GhostLayers layers = GhostLayers::one);
 
     LocalIndex n_owned() const { return n_owned_nodes; }
     LocalIndex n_local() const { return static_cast<LocalIndex>(position.size()); }
@@ -49,8 +57,17 @@ namespace perideal
     }
 
     /// Nodes of the cells that share a vertex with a cell, its own included,
-    /// ascending. For owned cells, and for ghosts beside which another material lies.
+    /// ascending. For owned cells, and for ghosts around which a second layer is known.
     std::vector<LocalIndex> cells_around(const Cell &cell) const;
+
+    /// The same by node, of graphs of two layers.
+    const std::vector<LocalIndex> &nodes_around(const LocalIndex node) const
+    {
+      return node < n_owned_nodes ? around_owned[node] : around_ghost.at(node);
+    }
+
+    /// Frees what nodes_around() needs.
+    void forget_layers();
 
     /// The values of all local nodes from those of the owned ones, for types made of
     /// doubles such as tensors. Collective.
@@ -84,7 +101,7 @@ namespace perideal
     LocalIndex add_ghost(const Ghost &ghost);
     void       exchange_ghosts(const Mesh<dim> &mesh);
     void       collect_cells_at_vertices(const Mesh<dim> &mesh);
-    void       exchange_second_layer(const Mesh<dim> &mesh);
+    void       exchange_second_layer(const Mesh<dim> &mesh, const GhostLayers layers);
 
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
@@ -92,9 +109,10 @@ namespace perideal
     /// Cells at each vertex.
     std::vector<unsigned int> first;
     std::vector<LocalIndex>   cells;
-    /// cells_around() of ghosts beside another material.
+    /// cells_around() of ghosts of which a second layer is known.
     std::map<LocalIndex, std::vector<LocalIndex>> around_ghost;
     std::map<GlobalIndex, LocalIndex>             local_number_of_ghost;
+    std::vector<std::vector<LocalIndex>>          around_owned;
   };
 
   template <int dim>

@@ -222,6 +222,12 @@ namespace perideal
 
     /// Body force [N/m^3].
     dealii::Tensor<1, dim> body_force_at(const dealii::Point<dim> &point, const double time) const;
+    /// Whether the scene gives one.
+    bool has_body_force() const
+    {
+      return std::any_of(
+        body_force.begin(), body_force.end(), [](const auto &component) { return component.is_present(); });
+    }
   };
 } // namespace perideal
 

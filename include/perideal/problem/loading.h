@@ -60,7 +60,12 @@ namespace perideal
   private:
     TreatedBody<dim> treated_body(Timings &timings) const;
 
+    /// Writes what body forces put on the nodes of cells [N]. Collective.
+    void set_body_forces(const double time, NodalVector &force) const;
+
     PointForces<dim> point_forces;
+    /// Of the linear consistent form, which takes body forces by moments; else null.
+    std::shared_ptr<const GradientMoments<dim>> moments;
   };
 } // namespace perideal
 

@@ -3,6 +3,7 @@
 #define perideal_reconstruction_face_gradient_h
 
 #include <perideal/nodes/cell_graph.h>
+#include <perideal/reconstruction/boundary_point.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -21,21 +22,6 @@ namespace perideal
     std::vector<BondIndex>  first = {0};
     std::vector<LocalIndex> column;
     std::vector<Value>      value;
-  };
-
-  /// A quadrature point on a face at the boundary of the body, at a cell of this rank.
-  template <int dim>
-  struct BoundaryPoint
-  {
-    /// Node of the cell.
-    LocalIndex node;
-    /// Consecutive number of the face among the boundary faces of this rank.
-    unsigned int               face;
-    dealii::types::boundary_id boundary;
-    dealii::Point<dim>         point;
-    /// Outward normal times the area that the point stands for, in 2-D length
-    /// times thickness [m^2].
-    dealii::Tensor<1, dim> area;
   };
 
   /**

@@ -60,7 +60,7 @@ namespace perideal
     /// Prescribed values in face gradients, where hold_nodes() is false; else none.
     /// Null until make_face_values().
     const std::shared_ptr<FaceValues<dim>> &face_values() const { return values; }
-    void                                    make_face_values(const FaceGradient<dim> &gradient);
+    void                                    make_face_values(const std::vector<BoundaryPoint<dim>> &points);
     /// Sets these to a time; along nonlinear equilibria the solver moves them.
     void set_face_values(const double time) const;
 

@@ -6,6 +6,7 @@
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/materials/linear_model.h>
 #include <perideal/neighbourhood/families.h>
+#include <perideal/operators/weights/gradient_moments.h>
 #include <perideal/reconstruction/face_gradient.h>
 
 #include <memory>
@@ -30,8 +31,10 @@ namespace perideal
   struct TreatedBonds
   {
     std::shared_ptr<const Families<dim>> families;
-    /// Where the scene needs one; the consistent form does.
+    /// Where the scene needs one.
     std::shared_ptr<const FaceGradient<dim>> gradient;
+    /// Of the consistent form.
+    std::shared_ptr<const GradientMoments<dim>> moments;
     /// As the model takes them.
     SolidOf<dim> solid_of;
   };

@@ -1,213 +1,213 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/consistent_operator.h>
+#include <perideal/operators/weights/gradient_rows.h>
 
 #include <algorithm>
+#include <memory>
 
-// Entries of the matrix behind ConsistentOperator: diagonal blocks and assembly.
-// Family i contributes B^T V C B + sum_j b_ij r_j^T r_j with the rows
-// B = d eps_i/du and r_j = d r_ij/du = xi_j (d/du_j - d/du_i) - (xi_j (x) xi_j) B.
+// Entries of the matrix behind ConsistentOperator: diagonal blocks and assembly. With the rows G, H and p of
+// GradientRows, cell i contributes
+//
+//     K_ab = sum_lm C_albm [ V G_l G_m + sum_kn (M^-1)_kn H_kl H_nm ],
+//
+// and a bond b rho rho^T with rho = dr/du, of which component a is
+// xi_a [ p_j - p_i - 1/2 xi.(G_i + G_j) ], G that of the component.
 
 namespace perideal
 {
-  template <int dim>
-  void ConsistentOperator<dim>::strain_row(const LocalIndex i, StrainRow &row) const
+  namespace
   {
-    const auto       &rows  = gradient->rows();
-    const auto       &phi   = gradient->boundary_rows();
-    const LocalIndex *begin = rows.column.data() + rows.first[i];
-    const std::size_t n     = rows.first[i + 1] - rows.first[i];
-    // c[k][a]: of component a, in which prescribed face values are left out.
-    std::vector<dealii::Tensor<2, dim>> c(n);
-    for (std::size_t k = 0; k < n; ++k)
-      for (int a = 0; a < dim; ++a)
-        c[k][a] = rows.value[rows.first[i] + k];
-    const auto range = prescribed_of_node.find(i);
-    if (range != prescribed_of_node.end())
-      for (std::size_t e = range->second.first; e < range->second.second; ++e)
-        {
-          const auto &entry = prescribed->entries()[e];
-          const auto  area  = gradient->boundary_points()[entry.point].area / families->volume[i];
-          for (BondIndex k = phi.first[entry.point]; k < phi.first[entry.point + 1]; ++k)
-            {
-              const auto at = std::lower_bound(begin, begin + n, phi.column[k]) - begin;
-              for (int a = 0; a < dim; ++a)
-                if (entry.condition[a] != FaceValues<dim>::free)
-                  c[at][a] -= phi.value[k] * area;
-            }
-        }
-    row.assign(n, {});
-    for (std::size_t k = 0; k < n; ++k)
-      for (unsigned int p = 0; p < n_pairs; ++p)
-        {
-          const auto [a, b] = Symmetric::axes(p);
-          row[k][p][a] += c[k][a][b];
-          if (a != b)
-            row[k][p][b] += c[k][b][a];
-        }
+    template <int dim>
+    using Row = typename GradientRows<dim>::Row;
+
+    /// dr/du of a bond, by column.
+    template <int dim>
+    class BondRow
+    {
+    public:
+      explicit BondRow(const LocalIndex n_columns)
+        : place(n_columns, nowhere)
+      {
+      }
+
+      void compute(const dealii::Tensor<1, dim> &bond, const Row<dim> &near, const Row<dim> &far)
+      {
+        for (const LocalIndex k : columns)
+          place[k] = nowhere;
+        columns.clear();
+        values.clear();
+        add(bond, near, -1.);
+        add(bond, far, 1.);
+      }
+
+      std::vector<LocalIndex>             columns;
+      std::vector<dealii::Tensor<1, dim>> values;
+
+    private:
+      void add(const dealii::Tensor<1, dim> &bond, const Row<dim> &row, const double sign)
+      {
+        for (std::size_t k = 0; k < row.column.size(); ++k)
+          {
+            LocalIndex &at = place[row.column[k]];
+            if (at == nowhere)
+              {
+                at = columns.size();
+                columns.push_back(row.column[k]);
+                values.emplace_back();
+              }
+            for (int a = 0; a < dim; ++a)
+              values[at][a] += bond[a] * (sign * row.value[k] - 0.5 * (bond * row.gradient_of(a)[k]));
+          }
+      }
+
+      static constexpr LocalIndex nowhere = static_cast<LocalIndex>(-1);
+      std::vector<LocalIndex>     place;
+    };
+
+    /// The block of two columns of a cell's energy.
+    template <int dim>
+    dealii::Tensor<2, dim> block_of(const Row<dim>                        &row,
+                                    const std::size_t                      k,
+                                    const std::size_t                      m,
+                                    const double                           volume,
+                                    const dealii::SymmetricTensor<2, dim> &inverse_moment,
+                                    const dealii::SymmetricTensor<4, dim> &stiffness)
+    {
+      dealii::Tensor<2, dim> result, product;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+          {
+            if (row.n_patterns > 1 || (a == 0 && b == 0))
+              product =
+                volume * outer_product(row.gradient_of(a)[k], row.gradient_of(b)[m]) +
+                transpose(row.moment_of(a)[k]) * dealii::Tensor<2, dim>(inverse_moment) * row.moment_of(b)[m];
+            for (unsigned int l = 0; l < dim; ++l)
+              for (unsigned int n = 0; n < dim; ++n)
+                result[a][b] += stiffness[a][l][b][n] * product[l][n];
+          }
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  GradientRows<dim> ConsistentOperator<dim>::make_rows() const
+  {
+    std::vector<GlobalIndex> wanted;
+    for (LocalIndex j = families->n_owned(); j < families->n_local(); ++j)
+      wanted.push_back(families->global_number(j));
+    return GradientRows<dim>(
+      moments->cell_polynomials(), moments->faces(), moments->prescribed_values(), wanted);
   }
 
   template <int dim>
-  std::array<typename ConsistentOperator<dim>::Pairs, ConsistentOperator<dim>::n_pairs>
-  ConsistentOperator<dim>::elasticity(const LocalIndex i) const
+  template <typename VisitCell, typename VisitBond>
+  void ConsistentOperator<dim>::visit_rows(const GradientRows<dim> &rows,
+                                           const VisitCell         &visit_cell,
+                                           const VisitBond         &visit_bond) const
   {
-    std::array<Pairs, n_pairs> result = solids[solid_of_node[i]].stiffness;
-    for (Pairs &row : result)
-      for (double &entry : row)
-        entry *= families->volume[i];
+    const LocalIndex n_owned = families->n_owned();
+    // Rows are made when a bond first reaches them, and dropped when all of their bonds are done.
+    std::vector<std::unique_ptr<Row<dim>>> kept(n_owned);
+    const auto                             row_of = [&](const LocalIndex i) -> const Row<dim>                             &{
+      if (i >= n_owned)
+        return rows.at(families->global_number(i));
+      if (!kept[i])
+        {
+          kept[i] = std::make_unique<Row<dim>>();
+          rows.compute(i, *kept[i]);
+          visit_cell(i, *kept[i]);
+          for (auto &moment : kept[i]->moment)
+            moment = {};
+        }
+      return *kept[i];
+    };
+    BondRow<dim> of_bond(rows.n_columns());
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      {
+        const Row<dim> &near = row_of(i);
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+          {
+            const LocalIndex j = bonds.neighbour[k];
+            // A bond that the partition cuts is that of the rank of its lower end.
+            if (stiffness[k] == 0. || families->global_number(j) < families->global_number(i))
+              continue;
+            dealii::Tensor<1, dim> bond;
+            for (int d = 0; d < dim; ++d)
+              bond[d] = positions[j].value[d] - positions[i].value[d];
+            of_bond.compute(bond, near, row_of(j));
+            visit_bond(stiffness[k], of_bond);
+          }
+        kept[i].reset();
+      }
+  }
+
+  template <int dim>
+  dealii::SymmetricTensor<2, dim> ConsistentOperator<dim>::inverse_moment_of(const LocalIndex i) const
+  {
+    dealii::SymmetricTensor<2, dim> result;
+    for (unsigned int p = 0; p < n_pairs; ++p)
+      result[Symmetric::axes(p).first][Symmetric::axes(p).second] = inverse_moment[i][p];
     return result;
-  }
-
-  template <int dim>
-  template <typename Visit>
-  void ConsistentOperator<dim>::visit_family(const LocalIndex i, const Visit &visit) const
-  {
-    for (const LocalIndex *m = families->begin(i); m != families->end(i); ++m)
-      if (families->material[*m] == families->material[i])
-        {
-          const auto bond = families->position[*m] - families->position[i];
-          visit(numbering.node_of_member[*m],
-                bond,
-                model.bond_stiffness(bond.norm_square(),
-                                     distance_square(i, bond),
-                                     families->volume[*m],
-                                     solids[solid_of_node[i]].bond_modulus));
-        }
   }
 
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
   {
-    const auto                         &rows = gradient->rows();
-    std::vector<dealii::Tensor<2, dim>> blocks(numbering.n_local);
-    StrainRow                           row;
-    constexpr LocalIndex                none = dealii::numbers::invalid_unsigned_int;
-    std::vector<LocalIndex>             place(numbering.n_local, none);
-    const auto                          add_cross = [](dealii::Tensor<2, dim>       &block,
-                              const double                  factor,
-                              const dealii::Tensor<1, dim> &bond,
-                              const dealii::Tensor<1, dim> &v) {
-      block += factor * (outer_product(bond, v) + outer_product(v, bond));
-    };
-    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
-      {
-        strain_row(i, row);
-        const LocalIndex *column = rows.column.data() + rows.first[i];
-        for (LocalIndex k = 0; k < row.size(); ++k)
-          place[column[k]] = k;
-
-        auto stiffness = elasticity(i);
-        visit_family(i, [&](const LocalIndex j, const dealii::Tensor<1, dim> &bond, const double b) {
-          const Pairs square = Symmetric::products(bond);
-          for (unsigned int p = 0; p < n_pairs; ++p)
-            for (unsigned int q = 0; q < n_pairs; ++q)
-              stiffness[p][q] += b * square[p] * square[q];
-          const auto of_bond = b * outer_product(bond, bond);
-          blocks[i] += of_bond;
-          blocks[j] += of_bond;
-          add_cross(blocks[i], b, bond, Symmetric::dot(row[place[i]], square));
-          if (place[j] != none)
-            add_cross(blocks[j], -b, bond, Symmetric::dot(row[place[j]], square));
-        });
-        for (LocalIndex k = 0; k < row.size(); ++k)
-          {
-            place[column[k]] = none;
-            for (unsigned int p = 0; p < n_pairs; ++p)
-              {
-                dealii::Tensor<1, dim> sum;
-                for (unsigned int q = 0; q < n_pairs; ++q)
-                  sum += stiffness[p][q] * row[k][q];
-                blocks[column[k]] += outer_product(row[k][p], sum);
-              }
-          }
-      }
-    collect(blocks);
-    blocks.resize(numbering.n_owned);
-    return blocks;
-  }
-
-  template <int dim>
-  void ConsistentOperator<dim>::collect(std::vector<dealii::Tensor<2, dim>> &blocks) const
-  {
-    // One row of the blocks after the other.
-    NodalVector row(this->partitioner);
-    for (int r = 0; r < dim; ++r)
-      {
-        for (LocalIndex i = 0; i < numbering.n_local; ++i)
-          {
-            const LocalIndex node =
-              i < numbering.n_owned ? i : numbering.node_of_ghost[i - numbering.n_owned];
-            for (int d = 0; d < dim; ++d)
-              row.local_element(dim * i + d) = blocks[node][r][d];
-          }
-        row.compress(dealii::VectorOperation::add);
-        for (LocalIndex i = 0; i < numbering.n_owned; ++i)
-          for (int d = 0; d < dim; ++d)
-            blocks[i][r][d] = row.local_element(dim * i + d);
-        row.zero_out_ghost_values();
-      }
+    const GradientRows<dim>             rows = make_rows();
+    std::vector<dealii::Tensor<2, dim>> blocks(rows.n_columns());
+    visit_rows(
+      rows,
+      [&](const LocalIndex i, const Row<dim> &row) {
+        const double volume  = moments->cell_polynomials().volumes()[i];
+        const auto   inverse = inverse_moment_of(i);
+        for (std::size_t k = 0; k < row.column.size(); ++k)
+          blocks[row.column[k]] += block_of<dim>(row, k, k, volume, inverse, stiffness_of(i));
+      },
+      [&](const double b, const BondRow<dim> &bond) {
+        for (std::size_t k = 0; k < bond.columns.size(); ++k)
+          blocks[bond.columns[k]] += b * outer_product(bond.values[k], bond.values[k]);
+      });
+    return rows.sum_to_owners(blocks);
   }
 
   template <int dim>
   void ConsistentOperator<dim>::assemble(const typename BondOperator<dim>::AddBlock &add) const
   {
-    const auto              &rows = gradient->rows();
-    StrainRow                row;
-    std::vector<LocalIndex>  nodes;
+    const GradientRows<dim>  rows = make_rows();
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
-    for (LocalIndex i = 0; i < numbering.n_owned; ++i)
-      {
-        strain_row(i, row);
-        const LocalIndex *column = rows.column.data() + rows.first[i];
-        nodes.assign(column, column + row.size());
-        visit_family(
-          i, [&](const LocalIndex j, const dealii::Tensor<1, dim> &, const double) { nodes.push_back(j); });
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        const auto place = [&](const LocalIndex node) {
-          return dim * (std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-        };
-        const std::size_t n = dim * nodes.size();
-        unknowns.resize(n);
-        for (std::size_t k = 0; k < n; ++k)
-          unknowns[k] = dim * numbering.global[nodes[k / dim]] + k % dim;
-
-        values.assign(n * n, 0.);
-        const auto add_square =
-          [&](const double factor, const std::vector<double> &a, const std::vector<double> &b) {
-            for (std::size_t r = 0; r < n; ++r)
-              for (std::size_t c = 0; a[r] != 0. && c < n; ++c)
-                values[r * n + c] += factor * a[r] * b[c];
-          };
-        std::array<std::vector<double>, n_pairs> strain;
-        for (unsigned int p = 0; p < n_pairs; ++p)
+    const auto               hand_out = [&](const std::vector<LocalIndex> &columns, const auto &block) {
+      const std::size_t n = dim * columns.size();
+      unknowns.resize(n);
+      values.resize(n * n);
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        for (unsigned int a = 0; a < dim; ++a)
+          unknowns[dim * k + a] = dim * rows.global_number(columns[k]) + a;
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        for (std::size_t m = 0; m < columns.size(); ++m)
           {
-            strain[p].assign(n, 0.);
-            for (std::size_t k = 0; k < row.size(); ++k)
-              for (int d = 0; d < dim; ++d)
-                strain[p][place(column[k]) + d] = row[k][p][d];
+            const dealii::Tensor<2, dim> entry = block(k, m);
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int c = 0; c < dim; ++c)
+                values[(dim * k + a) * n + dim * m + c] = entry[a][c];
           }
-        const auto stiffness = elasticity(i);
-        for (unsigned int p = 0; p < n_pairs; ++p)
-          for (unsigned int q = 0; q < n_pairs; ++q)
-            add_square(stiffness[p][q], strain[p], strain[q]);
-        std::vector<double> residual;
-        visit_family(i, [&](const LocalIndex j, const dealii::Tensor<1, dim> &bond, const double b) {
-          residual.assign(n, 0.);
-          const Pairs square = Symmetric::products(bond);
-          for (unsigned int p = 0; p < n_pairs; ++p)
-            for (std::size_t k = 0; k < n; ++k)
-              residual[k] -= square[p] * strain[p][k];
-          for (int d = 0; d < dim; ++d)
-            {
-              residual[place(j) + d] += bond[d];
-              residual[place(i) + d] -= bond[d];
-            }
-          add_square(b, residual, residual);
+      add(unknowns, values);
+    };
+    visit_rows(
+      rows,
+      [&](const LocalIndex i, const Row<dim> &row) {
+        const double volume  = moments->cell_polynomials().volumes()[i];
+        const auto   inverse = inverse_moment_of(i);
+        hand_out(row.column, [&](const std::size_t k, const std::size_t m) {
+          return block_of<dim>(row, k, m, volume, inverse, stiffness_of(i));
         });
-        add(unknowns, values);
-      }
+      },
+      [&](const double b, const BondRow<dim> &bond) {
+        hand_out(bond.columns, [&](const std::size_t k, const std::size_t m) {
+          return b * outer_product(bond.values[k], bond.values[m]);
+        });
+      });
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ConsistentOperator)

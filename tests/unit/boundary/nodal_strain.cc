@@ -20,7 +20,7 @@ namespace
         const Nodes<dim>        nodes(*mesh, NodeParameters{3.01});
         const FaceGradient<dim> gradient(*mesh, nodes, [](const auto) { return 1.; });
         const Loads<dim>        loads = resolve_boundaries(*mesh, Loads<dim>(field.loads()));
-        FaceValues<dim>         held(gradient, loads);
+        FaceValues<dim>         held(gradient.boundary_points(), loads);
         held.set_time(loads, 1.);
         const auto u = at_nodes(nodes, [&](const auto &x) { return field.displacement(x); });
         for (const auto &prescribed : {FaceValues<dim>(), held})
@@ -53,7 +53,7 @@ TEST(NodalStrain, HeedsPrescribedFaceValues)
   condition.displacement[1]           = "0.5";
   text.conditions                     = {condition};
   const Loads<2> loads                = resolve_boundaries(*mesh, Loads<2>(text));
-  FaceValues<2>  held(gradient, loads);
+  FaceValues<2>  held(gradient.boundary_points(), loads);
   held.set_time(loads, 1.);
   const auto strains =
     compute_nodal_strain(gradient, held, nodes, std::vector<dealii::Tensor<1, 2>>(nodes.size()));

@@ -7,6 +7,7 @@
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"
+#include "moments.h"
 #include "springs.h"
 #include "testing.h"
 
@@ -60,8 +61,7 @@ namespace
       if (parameters.is_consistent())
         bonds = std::make_shared<ConsistentOperator<dim>>(
           body.families,
-          std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; }),
-          std::make_shared<const FaceValues<dim>>(),
+          test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>()),
           create_consistent<dim>(parameters, 3.01),
           solid_of);
       else

@@ -54,7 +54,7 @@ namespace
         {
           gradient =
             std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; });
-          face_values = std::make_shared<FaceValues<dim>>(*gradient, loads);
+          face_values = std::make_shared<FaceValues<dim>>(gradient->boundary_points(), loads);
           face_values->set_time(loads, 1.);
         }
       rows = std::make_shared<CorrespondenceRows<dim>>(

@@ -3,6 +3,7 @@
 #include <perideal/treatments/treatments.h>
 
 #include "bodies.h"
+#include "moments.h"
 #include "testing.h"
 
 using namespace perideal;
@@ -38,8 +39,7 @@ namespace
       parameters.conditions[2].pressure = "3";
       loads                             = resolve_boundaries(*mesh, Loads<dim>(parameters));
       bonds.families                    = body.families;
-      bonds.gradient =
-        std::make_shared<const FaceGradient<dim>>(*mesh, body.nodes, [](const auto) { return 1.; });
+      bonds.moments  = test::make_moments(*mesh, body.nodes, std::make_shared<const FaceValues<dim>>());
       bonds.solid_of = [](const auto) {
         return ElasticSolid<dim>(ElasticConstants{1., 0.25, PlaneAssumption::plane_strain});
       };
@@ -111,7 +111,7 @@ namespace
         if (scene.parameters.displacement_treatment == DisplacementTreatment::automatic)
           continue;
         const auto supports = create_supports<dim>(scene.treated());
-        supports->make_face_values(*scene.bonds.gradient);
+        supports->make_face_values(scene.bonds.moments->faces().boundary_points());
         EXPECT_EQ(supports->describe().find(name), 0u);
         EXPECT_EQ(supports->images()->n_real(), supports->unknowns().size());
         EXPECT_EQ(supports->held().mask().size(), dim * supports->unknowns().size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef perideal_operators_linear_symmetric_pairs_h
-#define perideal_operators_linear_symmetric_pairs_h
+#ifndef perideal_base_symmetric_pairs_h
+#define perideal_base_symmetric_pairs_h
 
 #include <perideal/base/lanes.h>
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_weights_gradient_moments_h
+#define perideal_operators_weights_gradient_moments_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/boundary/face_values.h>
+#include <perideal/reconstruction/cell_polynomials.h>
+#include <perideal/reconstruction/face_moments.h>
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/partitioner.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Computes the mean gradient of each cell and its first moment from the means of a displacement over the
+   * cells, and the forces that belong to what acts on them. By the divergence theorem
+   *
+   *     V G_l   = sum_f int_f n_l v,
+   *     H_kl    = int (x_k - x_ik) du/dx_l = sum_f int_f n_l (x_k - x_ik) v - delta_kl V w_i,
+   *
+   * with one value v at a face for both of its cells, the mean of their polynomials (CellPolynomials), or what is
+   * prescribed there. w_i is the mean of the displacement; taking the mean itself would make H of
+   * checkerboards, which faces do not see, three times that of their polynomials, and the largest eigenvalues
+   * with it. So w_i is a mean smoothed over the cells around, chosen such that the trace of H is that
+   * of the cell's polynomial,
+   *
+   *     V w_i = 1/dim sum_f int_f n.(x - x_i) v - 1/dim int (x - x_i).grad p_i,
+   *
+   * which is the mean of quadratic fields on any mesh. Body forces act on w_i; with tractions on v all of it
+   * is exact for quadratic displacements.
+   *
+   * Cells are numbered as their nodes, ghosts behind the owned ones.
+   */
+  template <int dim>
+  class GradientMoments
+  {
+  public:
+    static constexpr unsigned int n_coefficients = Monomials<dim>::n_coefficients;
+
+    /// Collective.
+    GradientMoments(const std::shared_ptr<const CellPolynomials<dim>> &polynomials,
+                    const std::shared_ptr<const FaceMoments<dim>>     &face_moments,
+                    const std::shared_ptr<const FaceValues<dim>>      &prescribed,
+                    MPI_Comm                                           communicator);
+
+    LocalIndex n_owned() const { return n_owned_cells; }
+
+    const CellPolynomials<dim> &cell_polynomials() const { return *polynomials; }
+    const FaceMoments<dim>     &faces() const { return *face_moments; }
+    const FaceValues<dim>      &prescribed_values() const { return *prescribed; }
+
+    /// Which prescribed values at faces count: none, those that they have, or what they have still to move.
+    enum class AtFaces
+    {
+      nothing,
+      values,
+      increments
+    };
+
+    /// Computes G, H and the values at the centroids of a displacement of owned nodes [m]. Collective.
+    void read(const NodalVector &displacement, const AtFaces at_faces) const;
+
+    /// Of an owned cell, lanes by component of the displacement: G_l [-], H_kl [m^3] behind k dim + l, and the
+    /// value of its polynomial at the centroid [m]. After read().
+    NodeRecord       *gradient(const LocalIndex i) const { return work.gradient.data() + dim * i; }
+    NodeRecord       *moment(const LocalIndex i) const { return work.moment.data() + dim * dim * i; }
+    const NodeRecord &value(const LocalIndex i) const { return work.polynomial[n_coefficients * i]; }
+    /// What acts on that value [N].
+    NodeRecord &force(const LocalIndex i) const { return work.value_force[i]; }
+
+    /// G_l as a tensor du_a/dx_l.
+    dealii::Tensor<2, dim> gradient_tensor(const LocalIndex i) const;
+
+    /// Computes the forces on nodes that belong to what acts on gradient(), moment() and value(), which the
+    /// caller has written to gradient(), moment() [N m, N/m^2] and force(). Collective.
+    void transpose(NodalVector &force) const;
+
+    /// Forces that supports exert on the body at the prescribed values [N], by entry, of the last transpose().
+    std::vector<dealii::Tensor<1, dim>> support_forces() const;
+
+    /// Forces by owned cell that act on a displacement besides those of the bonds.
+    struct CellLoads
+    {
+      explicit CellLoads(const LocalIndex n_cells);
+
+      /// On w_i [N], and on the gradient [N m].
+      std::vector<dealii::Tensor<1, dim>> mean;
+      std::vector<dealii::Tensor<2, dim>> gradient;
+      /// On the polynomial's coefficients, the value at the centroid first.
+      std::vector<std::array<dealii::Tensor<1, dim>, n_coefficients>> polynomial;
+    };
+    /// Adds a force at a point to those on the polynomial of its cell.
+    void add_at(CellLoads                    &loads,
+                const LocalIndex              cell,
+                const dealii::Point<dim>     &point,
+                const dealii::Tensor<1, dim> &force) const;
+    /// Adds the forces on owned nodes that belong to loads [N]. Collective.
+    void add_nodal_forces(const CellLoads &loads, NodalVector &force) const;
+
+    /// Adds the forces on owned nodes that come of the body force [N]. Collective.
+    void add_body_forces(const Mesh<dim>  &mesh,
+                         const Nodes<dim> &nodes,
+                         const Loads<dim> &loads,
+                         const double      time,
+                         NodalVector      &force) const;
+
+    /// Values of the polynomials at the centroids [m], by owned node, of the means. Collective.
+    std::vector<dealii::Tensor<1, dim>> point_values(const NodalVector &displacement) const;
+    /// Value of a cell's polynomial at a point [m], after read().
+    dealii::Tensor<1, dim> value_at(const LocalIndex cell, const dealii::Point<dim> &point) const;
+
+    std::size_t memory_consumption() const;
+
+  private:
+    /// A face as the loops read it: cells in the numbers of polynomials, offsets of its centre from theirs [m].
+    struct Face
+    {
+      LocalIndex    cell[2];
+      bool          is_plane;
+      double        share[2];
+      double        offset[2][dim];
+      const double *moments;
+    };
+    /// Components of a boundary face that are prescribed: 1 where so.
+    struct Held
+    {
+      Lanes       mask;
+      std::size_t first_entry;
+    };
+
+    void number(MPI_Comm communicator);
+    void collect_faces();
+    void collect_held();
+
+    void read_polynomials(const NodalVector &displacement) const;
+    void sum_over_faces(const AtFaces at_faces) const;
+    void spread_to_faces() const;
+    void spread_to_nodes(NodalVector &force) const;
+    /// Prescribed value of an entry as asked for.
+    Lanes prescribed_value(const std::size_t entry, const AtFaces at_faces) const;
+
+    std::shared_ptr<const CellPolynomials<dim>> polynomials;
+    std::shared_ptr<const FaceMoments<dim>>     face_moments;
+    std::shared_ptr<const FaceValues<dim>>      prescribed;
+
+    LocalIndex                                                 n_owned_cells;
+    std::vector<LocalIndex>                                    column;
+    std::vector<LocalIndex>                                    polynomial_of_ghost;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_displacements, of_polynomials;
+    std::vector<Face>                                          faces_of_cells;
+    std::size_t                                                n_inner_faces;
+    /// By boundary face.
+    std::map<std::size_t, Held> held;
+
+    /// What read() leaves, and transpose() uses.
+    struct Work
+    {
+      dealii::AlignedVector<NodeRecord> displacement, polynomial, gradient, moment, value_force, trace_force;
+      std::vector<double>               temporary;
+    };
+    mutable Work work;
+  };
+} // namespace perideal
+
+#endif

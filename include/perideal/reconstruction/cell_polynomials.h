@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_reconstruction_cell_polynomials_h
+#define perideal_reconstruction_cell_polynomials_h
+
+#include <perideal/nodes/cell_graph.h>
+#include <perideal/reconstruction/monomials.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Fits a quadratic polynomial to the means of a field over each cell and the cells around it,
+   *
+   *     p_i(x) = u_i + sum_t c_t (m_t(x - x_i) - mean of m_t over cell i),
+   *
+   * of which the mean over its own cell is the cell's. Coefficients are sums over the stencil,
+   *
+   *     c_t = sum_k R_kt (u_k - u_i),
+   *
+   * of weighted least squares with the means of the monomials over each cell: exact for quadratic fields on
+   * any mesh.
+   *
+   * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies at
+   * the boundary or at another material, those around the cell behind it. Where they do not determine all
+   * quadratics it takes one ring more; what no ring determines is left out: linear terms are fitted first,
+   * quadratics to what these leave.
+   *
+   * Nodes are numbered as in the cell graph.
+   */
+  template <int dim>
+  class CellPolynomials
+  {
+  public:
+    static constexpr unsigned int n_terms = Monomials<dim>::n_terms;
+    using Terms                           = std::array<double, n_terms>;
+
+    /// Collective.
+    CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes);
+
+    const CellGraph<dim> &graph() const { return cells; }
+
+    /// Mean of (x - x_i) (x) (x - x_i) over the cell [m^2] and its centroid x_i, by local node.
+    const std::vector<dealii::SymmetricTensor<2, dim>> &second_moments() const { return moments; }
+    const std::vector<dealii::Point<dim>>              &centroids() const { return centroid; }
+    /// Volumes of owned cells [m^3].
+    const std::vector<double> &volumes() const { return volume; }
+
+    /// R of owned cells: entries of cell i are [first[i], first[i+1]), that of the cell itself left out.
+    const std::vector<BondIndex>  &first() const { return row; }
+    const std::vector<LocalIndex> &columns() const { return column; }
+    const std::vector<Terms>      &coefficients() const { return coefficient; }
+
+    /// Means of the quadratic monomials over an owned cell, in the order of the pairs [m^2].
+    std::array<double, Monomials<dim>::n_quadratic> means(const LocalIndex i) const
+    {
+      std::array<double, Monomials<dim>::n_quadratic> result;
+      for (unsigned int p = 0; p < result.size(); ++p)
+        result[p] = moments[i][SymmetricPairs<dim>::axes(p).first][SymmetricPairs<dim>::axes(p).second];
+      return result;
+    }
+
+    /// Owned cells whose stencil lies in a plane (a body one cell thick), where linear fields are not exact.
+    const std::vector<bool> &deficient() const { return is_deficient; }
+
+    std::size_t memory_consumption() const;
+
+  private:
+    class Builder;
+
+    CellGraph<dim>                               cells;
+    std::vector<dealii::SymmetricTensor<2, dim>> moments;
+    std::vector<dealii::Point<dim>>              centroid;
+    std::vector<double>                          volume;
+    std::vector<BondIndex>                       row = {0};
+    std::vector<LocalIndex>                      column;
+    std::vector<Terms>                           coefficient;
+    std::vector<bool>                            is_deficient;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_reconstruction_face_moments_h
+#define perideal_reconstruction_face_moments_h
+
+#include <perideal/nodes/cell_graph.h>
+#include <perideal/reconstruction/boundary_point.h>
+#include <perideal/reconstruction/monomials.h>
+
+#include <functional>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Holds the integrals of monomials over the faces of this rank's cells,
+   *
+   *     T_lm = int_f n_l m(x - x_f) dA,
+   *
+   * for the monomials up to degree three, by which quadratic polynomials are integrated over faces exactly, with
+   * their normal and with their first moment. On plane faces they are n_l t_m with one normal; bilinear ones
+   * have three such rows.
+   *
+   * A face between cells of different sizes is one face for each of the finer cells.
+   */
+  template <int dim>
+  class FaceMoments
+  {
+  public:
+    using Cell = typename CellGraph<dim>::Cell;
+
+    /// A face, its normal out of the first cell.
+    struct Face
+    {
+      /// Local nodes of the graph, of which one at least is owned; the second is `none` at the boundary.
+      std::array<LocalIndex, 2> node;
+      /// Shares of the two cells' polynomials in the value at the face.
+      std::array<double, 2> share;
+      dealii::Point<dim>    centre;
+      bool                  is_plane;
+      /// Where the moments begin in values(): plane ones with the normal, n_l, t_m; others T_0m, T_1m, ...
+      std::size_t first;
+    };
+
+    static constexpr LocalIndex none = static_cast<LocalIndex>(-1);
+
+    /// @param stiffness of a material, in any unit: at a face between two materials the stiffer one counts more
+    FaceMoments(const Mesh<dim>                                               &mesh,
+                const CellGraph<dim>                                          &graph,
+                const std::function<double(const dealii::types::material_id)> &stiffness);
+
+    /// Inner faces, then those at the boundary in the order of their number among the boundary points.
+    const std::vector<Face>   &faces() const { return list; }
+    std::size_t                n_inner_faces() const { return n_inner; }
+    const std::vector<double> &values() const { return value; }
+
+    /// Three Gauss points in each direction of every face at the boundary; those of boundary face b are
+    /// [b n_points, (b+1) n_points).
+    const std::vector<BoundaryPoint<dim>> &boundary_points() const { return points; }
+    static constexpr unsigned int          n_points = dim == 2 ? 3 : 9;
+
+    std::size_t memory_consumption() const;
+
+  private:
+    void add(const Cell &cell, const unsigned int f, const Face &face, const double thickness);
+
+    std::vector<Face>               list;
+    std::size_t                     n_inner = 0;
+    std::vector<double>             value;
+    std::vector<BoundaryPoint<dim>> points;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/boundary/body_forces.h>
+#include <perideal/nodes/node_partitioner.h>
+#include <perideal/operators/weights/gradient_moments.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+// Set-up of GradientMoments, and what is not called in every application of an operator.
+
+namespace perideal
+{
+  template <int dim>
+  GradientMoments<dim>::GradientMoments(const std::shared_ptr<const CellPolynomials<dim>> &polynomials,
+                                        const std::shared_ptr<const FaceMoments<dim>>     &face_moments,
+                                        const std::shared_ptr<const FaceValues<dim>>      &prescribed,
+                                        MPI_Comm                                           communicator)
+    : polynomials(polynomials)
+    , face_moments(face_moments)
+    , prescribed(prescribed)
+    , n_owned_cells(polynomials->graph().n_owned())
+    , n_inner_faces(face_moments->n_inner_faces())
+  {
+    number(communicator);
+    collect_faces();
+    collect_held();
+    work.gradient.resize(dim * n_owned_cells, NodeRecord{});
+    work.moment.resize(dim * dim * n_owned_cells, NodeRecord{});
+    work.value_force.resize(n_owned_cells, NodeRecord{});
+    work.trace_force.resize(n_owned_cells, NodeRecord{});
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::number(MPI_Comm communicator)
+  {
+    const CellGraph<dim> &graph = polynomials->graph();
+    const GlobalIndex     n_all = dealii::Utilities::MPI::sum<GlobalIndex>(n_owned_cells, communicator);
+    // Ghosts of a list of local numbers of the graph, in the order of a partitioner.
+    const auto ghosts_of = [&](const std::set<LocalIndex> &nodes) {
+      std::vector<std::pair<GlobalIndex, LocalIndex>> result;
+      for (const LocalIndex node : nodes)
+        result.emplace_back(graph.global_number(node), node);
+      std::sort(result.begin(), result.end());
+      return result;
+    };
+    const auto layout = [&](const auto &ghosts, const unsigned int n_records) {
+      std::vector<GlobalIndex> numbers;
+      for (const auto &ghost : ghosts)
+        numbers.push_back(ghost.first);
+      return make_node_partitioner(
+        graph.global_number(0), n_owned_cells, n_all, numbers, 4 * n_records, communicator);
+    };
+
+    std::set<LocalIndex> read;
+    for (const LocalIndex k : polynomials->columns())
+      if (k >= n_owned_cells)
+        read.insert(k);
+    const auto              columns = ghosts_of(read);
+    std::vector<LocalIndex> place(graph.n_local() - n_owned_cells, FaceMoments<dim>::none);
+    for (std::size_t g = 0; g < columns.size(); ++g)
+      place[columns[g].second - n_owned_cells] = n_owned_cells + g;
+    column = polynomials->columns();
+    for (LocalIndex &k : column)
+      if (k >= n_owned_cells)
+        k = place[k - n_owned_cells];
+    of_displacements = layout(columns, 1);
+
+    std::set<LocalIndex> beyond;
+    for (const auto &face : face_moments->faces())
+      for (const LocalIndex node : face.node)
+        if (node != FaceMoments<dim>::none && node >= n_owned_cells)
+          beyond.insert(node);
+    const auto cells = ghosts_of(beyond);
+    polynomial_of_ghost.assign(graph.n_local() - n_owned_cells, FaceMoments<dim>::none);
+    for (std::size_t g = 0; g < cells.size(); ++g)
+      polynomial_of_ghost[cells[g].second - n_owned_cells] = n_owned_cells + g;
+    of_polynomials = layout(cells, n_coefficients);
+
+    work.displacement.resize(n_owned_cells + columns.size(), NodeRecord{});
+    work.polynomial.resize(n_coefficients * (n_owned_cells + cells.size()), NodeRecord{});
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::collect_faces()
+  {
+    for (const auto &from : face_moments->faces())
+      {
+        Face face{};
+        face.is_plane = from.is_plane;
+        face.moments  = face_moments->values().data() + from.first;
+        for (unsigned int s = 0; s < 2; ++s)
+          {
+            face.cell[s]  = from.node[s];
+            face.share[s] = from.share[s];
+            if (from.node[s] == FaceMoments<dim>::none)
+              continue;
+            for (int d = 0; d < dim; ++d)
+              face.offset[s][d] = from.centre[d] - polynomials->centroids()[from.node[s]][d];
+            if (from.node[s] >= n_owned_cells)
+              face.cell[s] = polynomial_of_ghost[from.node[s] - n_owned_cells];
+          }
+        faces_of_cells.push_back(face);
+      }
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::collect_held()
+  {
+    const auto &entries = prescribed->entries();
+    for (std::size_t e = 0; e < entries.size(); e += FaceMoments<dim>::n_points)
+      {
+        Held of_face{Lanes{}, e};
+        for (int d = 0; d < dim; ++d)
+          if (entries[e].condition[d] != FaceValues<dim>::free)
+            of_face.mask[d] = 1.;
+        held[face_moments->boundary_points()[entries[e].point].face] = of_face;
+      }
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> GradientMoments<dim>::gradient_tensor(const LocalIndex i) const
+  {
+    dealii::Tensor<2, dim> result;
+    for (int a = 0; a < dim; ++a)
+      for (int l = 0; l < dim; ++l)
+        result[a][l] = gradient(i)[l].value[a];
+    return result;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::support_forces() const
+  {
+    // dU/du at the points of a face, of which V G_l and H_kl have the sums n_l u and n_l (x - x_i)_k u.
+    const auto                         &points  = face_moments->boundary_points();
+    const auto                         &entries = prescribed->entries();
+    std::vector<dealii::Tensor<1, dim>> result;
+    for (const auto &entry : entries)
+      {
+        const BoundaryPoint<dim> &point = points[entry.point];
+        const LocalIndex          i     = point.node;
+        const auto                arm   = point.point - polynomials->centroids()[i];
+        dealii::Tensor<1, dim>    force;
+        for (int a = 0; a < dim; ++a)
+          if (entry.condition[a] != FaceValues<dim>::free)
+            for (int l = 0; l < dim; ++l)
+              {
+                double pull = gradient(i)[l].value[a];
+                for (int k = 0; k < dim; ++k)
+                  pull += arm[k] * moment(i)[dim * k + l].value[a];
+                force[a] += pull * point.area[l];
+              }
+        result.push_back(force);
+      }
+    return result;
+  }
+
+  template <int dim>
+  GradientMoments<dim>::CellLoads::CellLoads(const LocalIndex n_cells)
+    : mean(n_cells)
+    , gradient(n_cells)
+    , polynomial(n_cells)
+  {
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::add_at(CellLoads                    &loads,
+                                    const LocalIndex              cell,
+                                    const dealii::Point<dim>     &point,
+                                    const dealii::Tensor<1, dim> &force) const
+  {
+    std::array<double, Monomials<dim>::n> monomial;
+    Monomials<dim>::evaluate(point - polynomials->centroids()[cell], monomial);
+    for (unsigned int m = 0; m < n_coefficients; ++m)
+      loads.polynomial[cell][m] += monomial[m] * force;
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::add_nodal_forces(const CellLoads &loads, NodalVector &force) const
+  {
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (int a = 0; a < dim; ++a)
+        {
+          const double volume = polynomials->volumes()[i];
+          // V w is 1/dim of the trace of H by faces less that by the polynomial.
+          const double on_trace        = loads.mean[i][a] / (dim * volume);
+          work.value_force[i].value[a] = 0.;
+          work.trace_force[i].value[a] = -on_trace;
+          for (int l = 0; l < dim; ++l)
+            {
+              gradient(i)[l].value[a] = loads.gradient[i][a][l] / volume;
+              for (int k = 0; k < dim; ++k)
+                moment(i)[dim * k + l].value[a] = k == l ? on_trace : 0.;
+            }
+        }
+    spread_to_faces();
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (unsigned int m = 0; m < n_coefficients; ++m)
+        for (int a = 0; a < dim; ++a)
+          work.polynomial[n_coefficients * i + m].value[a] += loads.polynomial[i][m][a];
+    NodalVector sum(force);
+    spread_to_nodes(sum);
+    for (std::size_t r = 0; r < dim * static_cast<std::size_t>(n_owned_cells); ++r)
+      force.local_element(r) += sum.local_element(r);
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::add_body_forces(const Mesh<dim>  &mesh,
+                                             const Nodes<dim> &nodes,
+                                             const Loads<dim> &loads,
+                                             const double      time,
+                                             NodalVector      &force) const
+  {
+    CellLoads  on_cells(n_owned_cells);
+    const auto integrals = integrate_body_forces(mesh, nodes, polynomials->centroids(), loads, time);
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      {
+        on_cells.mean[i]     = integrals[i].force;
+        on_cells.gradient[i] = integrals[i].moment;
+      }
+    add_nodal_forces(on_cells, force);
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> GradientMoments<dim>::value_at(const LocalIndex          cell,
+                                                        const dealii::Point<dim> &point) const
+  {
+    std::array<double, Monomials<dim>::n> monomial;
+    Monomials<dim>::evaluate(point - polynomials->centroids()[cell], monomial);
+    dealii::Tensor<1, dim> result;
+    for (unsigned int m = 0; m < n_coefficients; ++m)
+      for (int a = 0; a < dim; ++a)
+        result[a] += monomial[m] * work.polynomial[n_coefficients * cell + m].value[a];
+    return result;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  GradientMoments<dim>::point_values(const NodalVector &displacement) const
+  {
+    read_polynomials(displacement);
+    std::vector<dealii::Tensor<1, dim>> result(n_owned_cells);
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (int a = 0; a < dim; ++a)
+        result[i][a] = value(i).value[a];
+    return result;
+  }
+
+  template <int dim>
+  std::size_t GradientMoments<dim>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return polynomials->memory_consumption() + face_moments->memory_consumption() + memory_consumption(column) +
+           faces_of_cells.size() * sizeof(Face) +
+           (work.displacement.size() + work.polynomial.size() + work.gradient.size() + work.moment.size() +
+            work.value_force.size() + work.trace_force.size()) *
+             sizeof(NodeRecord);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(GradientMoments)
+} // namespace perideal

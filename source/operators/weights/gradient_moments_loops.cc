@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/record_exchange.h>
+#include <perideal/operators/weights/gradient_moments.h>
+
+#include <algorithm>
+
+// The hot loops of GradientMoments: cells, faces, and both transposed.
+
+namespace perideal
+{
+  namespace
+  {
+    /// Adds share times a polynomial about a centroid, in coefficients about a point that is offset from there.
+    template <int dim>
+    PERIDEAL_INLINE void
+    add_shifted(const NodeRecord *from, const double *offset, const double share, Lanes *result)
+    {
+      using M   = Monomials<dim>;
+      Lanes sum = lanes(from[0]), slope[dim];
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          slope[d] = lanes(from[1 + d]);
+          sum += offset[d] * slope[d];
+        }
+      for (unsigned int p = 0; p < M::n_quadratic; ++p)
+        {
+          constexpr auto axes = SymmetricPairs<dim>::axes;
+          const auto [a, b]   = axes(p);
+          const Lanes q       = lanes(from[1 + dim + p]);
+          sum += (offset[a] * offset[b]) * q;
+          slope[a] += offset[b] * q;
+          slope[b] += offset[a] * q;
+          result[1 + dim + p] += share * q;
+        }
+      result[0] += share * sum;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[1 + d] += share * slope[d];
+    }
+
+    /// The transpose of add_shifted().
+    template <int dim>
+    PERIDEAL_INLINE void
+    add_shifted_back(const Lanes *from, const double *offset, const double share, NodeRecord *result)
+    {
+      using M = Monomials<dim>;
+      Lanes scaled[1 + dim];
+      for (unsigned int m = 0; m < 1 + dim; ++m)
+        scaled[m] = share * from[m];
+      lanes(result[0]) += scaled[0];
+      for (unsigned int d = 0; d < dim; ++d)
+        lanes(result[1 + d]) += scaled[1 + d] + offset[d] * scaled[0];
+      for (unsigned int p = 0; p < M::n_quadratic; ++p)
+        {
+          const auto [a, b] = SymmetricPairs<dim>::axes(p);
+          lanes(result[1 + dim + p]) += share * from[1 + dim + p] + (offset[a] * offset[b]) * scaled[0] +
+                                        offset[b] * scaled[1 + a] + offset[a] * scaled[1 + b];
+        }
+    }
+
+    /// What a face adds to V G_l and to H_kl about its centre.
+    template <int dim>
+    struct FaceSums
+    {
+      Lanes gradient[dim], moment[dim][dim];
+    };
+
+    /// Integrates a polynomial over a face.
+    template <int dim>
+    PERIDEAL_INLINE void
+    integrate(const double *moments, const bool is_plane, const Lanes *polynomial, FaceSums<dim> &sums)
+    {
+      using M = Monomials<dim>;
+      if (is_plane)
+        {
+          const double *t     = moments + dim;
+          Lanes         value = {}, first[dim] = {};
+          for (unsigned int m = 0; m < M::n_coefficients; ++m)
+            {
+              value += t[m] * polynomial[m];
+              for (unsigned int k = 0; k < dim; ++k)
+                first[k] += t[M::times(m, k)] * polynomial[m];
+            }
+          for (unsigned int l = 0; l < dim; ++l)
+            {
+              sums.gradient[l] = moments[l] * value;
+              for (unsigned int k = 0; k < dim; ++k)
+                sums.moment[k][l] = moments[l] * first[k];
+            }
+        }
+      else
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            const double *t     = moments + l * M::n;
+            Lanes         value = {}, first[dim] = {};
+            for (unsigned int m = 0; m < M::n_coefficients; ++m)
+              {
+                value += t[m] * polynomial[m];
+                for (unsigned int k = 0; k < dim; ++k)
+                  first[k] += t[M::times(m, k)] * polynomial[m];
+              }
+            sums.gradient[l] = value;
+            for (unsigned int k = 0; k < dim; ++k)
+              sums.moment[k][l] = first[k];
+          }
+    }
+
+    /// The transpose of integrate().
+    template <int dim>
+    PERIDEAL_INLINE void
+    integrate_back(const double *moments, const bool is_plane, const FaceSums<dim> &sums, Lanes *polynomial)
+    {
+      using M = Monomials<dim>;
+      if (is_plane)
+        {
+          const double *t     = moments + dim;
+          Lanes         value = {}, first[dim] = {};
+          for (unsigned int l = 0; l < dim; ++l)
+            {
+              value += moments[l] * sums.gradient[l];
+              for (unsigned int k = 0; k < dim; ++k)
+                first[k] += moments[l] * sums.moment[k][l];
+            }
+          for (unsigned int m = 0; m < M::n_coefficients; ++m)
+            {
+              Lanes sum = t[m] * value;
+              for (unsigned int k = 0; k < dim; ++k)
+                sum += t[M::times(m, k)] * first[k];
+              polynomial[m] = sum;
+            }
+        }
+      else
+        for (unsigned int m = 0; m < M::n_coefficients; ++m)
+          {
+            Lanes sum = {};
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                const double *t = moments + l * M::n;
+                sum += t[m] * sums.gradient[l];
+                for (unsigned int k = 0; k < dim; ++k)
+                  sum += t[M::times(m, k)] * sums.moment[k][l];
+              }
+            polynomial[m] = sum;
+          }
+    }
+  } // namespace
+
+  template <int dim>
+  void GradientMoments<dim>::read_polynomials(const NodalVector &displacement) const
+  {
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (int d = 0; d < dim; ++d)
+        work.displacement[i].value[d] = displacement.local_element(dim * i + d);
+    update_ghosts(*of_displacements, work.displacement, work.temporary);
+    constexpr unsigned int n_terms = Monomials<dim>::n_terms;
+    const NodeRecord      *u       = work.displacement.data();
+    const auto            &rows    = polynomials->coefficients();
+    const auto            &first   = polynomials->first();
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      {
+        Lanes       c[n_terms] = {};
+        const Lanes own        = lanes(u[i]);
+        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+          {
+            const Lanes   difference = lanes(u[column[k]]) - own;
+            const double *row        = rows[k].data();
+            for (unsigned int t = 0; t < n_terms; ++t)
+              c[t] += row[t] * difference;
+          }
+        Lanes      value = own;
+        const auto means = polynomials->means(i);
+        for (unsigned int p = 0; p < means.size(); ++p)
+          value -= means[p] * c[dim + p];
+        NodeRecord *result = work.polynomial.data() + n_coefficients * i;
+        lanes(result[0])   = value;
+        for (unsigned int t = 0; t < n_terms; ++t)
+          lanes(result[1 + t]) = c[t];
+      }
+  }
+
+  template <int dim>
+  Lanes GradientMoments<dim>::prescribed_value(const std::size_t entry, const AtFaces at_faces) const
+  {
+    Lanes       result = {};
+    const auto &from   = prescribed->entries()[entry];
+    for (int d = 0; d < dim; ++d)
+      result[d] = at_faces == AtFaces::nothing ? 0. :
+                  at_faces == AtFaces::values  ? from.value[d] :
+                                                 from.increment[d];
+    return result;
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::sum_over_faces(const AtFaces at_faces) const
+  {
+    std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
+    std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
+    const auto add = [&](const Face &face, const unsigned int side, const FaceSums<dim> &sums) {
+      const LocalIndex i = face.cell[side];
+      if (i >= n_owned_cells)
+        return;
+      const double sign = side == 0 ? 1. : -1.;
+      NodeRecord  *g = gradient(i), *h = moment(i);
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          const Lanes value = sign * sums.gradient[l];
+          lanes(g[l]) += value;
+          for (unsigned int k = 0; k < dim; ++k)
+            lanes(h[dim * k + l]) += sign * sums.moment[k][l] + face.offset[side][k] * value;
+        }
+    };
+    auto next = held.begin();
+    for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
+      {
+        const Face   &face                       = faces_of_cells[f];
+        const bool    is_inner                   = f < n_inner_faces;
+        Lanes         polynomial[n_coefficients] = {};
+        FaceSums<dim> sums;
+        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+          add_shifted<dim>(work.polynomial.data() + n_coefficients * face.cell[side],
+                           face.offset[side],
+                           face.share[side],
+                           polynomial);
+        integrate<dim>(face.moments, face.is_plane, polynomial, sums);
+        if (!is_inner && next != held.end() && next->first == f - n_inner_faces)
+          {
+            const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                sums.gradient[l] *= free;
+                for (unsigned int k = 0; k < dim; ++k)
+                  sums.moment[k][l] *= free;
+              }
+            const auto &centre = face_moments->faces()[f].centre;
+            for (unsigned int q = 0; at_faces != AtFaces::nothing && q < FaceMoments<dim>::n_points; ++q)
+              {
+                const std::size_t e     = next->second.first_entry + q;
+                const auto       &point = face_moments->boundary_points()[prescribed->entries()[e].point];
+                const Lanes       value = next->second.mask * prescribed_value(e, at_faces);
+                for (unsigned int l = 0; l < dim; ++l)
+                  {
+                    sums.gradient[l] += point.area[l] * value;
+                    for (unsigned int k = 0; k < dim; ++k)
+                      sums.moment[k][l] += ((point.point[k] - centre[k]) * point.area[l]) * value;
+                  }
+              }
+            ++next;
+          }
+        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+          add(face, side, sums);
+      }
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::read(const NodalVector &displacement, const AtFaces at_faces) const
+  {
+    read_polynomials(displacement);
+    update_ghosts(*of_polynomials, work.polynomial, work.temporary);
+    sum_over_faces(at_faces);
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      {
+        const double volume = polynomials->volumes()[i];
+        NodeRecord  *g = gradient(i), *h = moment(i);
+        const auto   means = polynomials->means(i);
+        // The trace is that of the polynomial, int (x - x_i).grad p.
+        Lanes change = {};
+        for (unsigned int p = 0; p < means.size(); ++p)
+          change += (2. * volume * means[p]) * lanes(work.polynomial[n_coefficients * i + 1 + dim + p]);
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            lanes(g[l]) *= 1. / volume;
+            change -= lanes(h[(dim + 1) * l]);
+          }
+        for (unsigned int l = 0; l < dim; ++l)
+          lanes(h[(dim + 1) * l]) += (1. / dim) * change;
+      }
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::spread_to_faces() const
+  {
+    std::fill(work.polynomial.begin(), work.polynomial.end(), NodeRecord{});
+    const auto add = [&](const Face &face, const unsigned int side, FaceSums<dim> &sums) {
+      const LocalIndex i = face.cell[side];
+      if (i >= n_owned_cells)
+        return;
+      const double      sign = side == 0 ? 1. : -1.;
+      const NodeRecord *g = gradient(i), *h = moment(i);
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          Lanes pull = lanes(g[l]);
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              pull += face.offset[side][k] * lanes(h[dim * k + l]);
+              sums.moment[k][l] += sign * lanes(h[dim * k + l]);
+            }
+          sums.gradient[l] += sign * pull;
+        }
+    };
+    auto next = held.begin();
+    for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
+      {
+        const Face        &face     = faces_of_cells[f];
+        const unsigned int n_sides  = f < n_inner_faces ? 2 : 1;
+        FaceSums<dim>      sums     = {};
+        Lanes              polynomial[n_coefficients];
+        for (unsigned int side = 0; side < n_sides; ++side)
+          add(face, side, sums);
+        if (n_sides == 1 && next != held.end() && next->first == f - n_inner_faces)
+          {
+            const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                sums.gradient[l] *= free;
+                for (unsigned int k = 0; k < dim; ++k)
+                  sums.moment[k][l] *= free;
+              }
+            ++next;
+          }
+        integrate_back<dim>(face.moments, face.is_plane, sums, polynomial);
+        for (unsigned int side = 0; side < n_sides; ++side)
+          add_shifted_back<dim>(polynomial,
+                                face.offset[side],
+                                face.share[side],
+                                work.polynomial.data() + n_coefficients * face.cell[side]);
+      }
+    add_to_owners(*of_polynomials, work.polynomial, work.temporary);
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::spread_to_nodes(NodalVector &force) const
+  {
+    constexpr unsigned int n_terms = Monomials<dim>::n_terms;
+    NodeRecord            *f       = work.displacement.data();
+    std::fill(work.displacement.begin(), work.displacement.end(), NodeRecord{});
+    const auto &rows  = polynomials->coefficients();
+    const auto &first = polynomials->first();
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      {
+        const NodeRecord *acting = work.polynomial.data() + n_coefficients * i;
+        const Lanes       on_value = lanes(acting[0]) + lanes(work.value_force[i]);
+        const Lanes       on_trace = (2. * polynomials->volumes()[i]) * lanes(work.trace_force[i]);
+        const auto        means    = polynomials->means(i);
+        Lanes             c[n_terms];
+        for (unsigned int t = 0; t < n_terms; ++t)
+          c[t] = lanes(acting[1 + t]);
+        for (unsigned int p = 0; p < means.size(); ++p)
+          c[dim + p] += means[p] * (on_trace - on_value);
+        Lanes own = on_value;
+        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+          {
+            const double *row = rows[k].data();
+            Lanes         sum = row[0] * c[0];
+            for (unsigned int t = 1; t < n_terms; ++t)
+              sum += row[t] * c[t];
+            lanes(f[column[k]]) += sum;
+            own -= sum;
+          }
+        lanes(f[i]) += own;
+      }
+    add_to_owners(*of_displacements, work.displacement, work.temporary);
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) = f[i].value[d];
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::transpose(NodalVector &force) const
+  {
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      {
+        const double volume = polynomials->volumes()[i];
+        NodeRecord  *g = gradient(i), *h = moment(i);
+        Lanes        trace = {};
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            lanes(g[l]) *= 1. / volume;
+            trace += (1. / dim) * lanes(h[(dim + 1) * l]);
+          }
+        for (unsigned int l = 0; l < dim; ++l)
+          lanes(h[(dim + 1) * l]) -= trace;
+        lanes(work.trace_force[i]) = trace;
+      }
+    spread_to_faces();
+    spread_to_nodes(force);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(GradientMoments)
+} // namespace perideal

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/reconstruction/cell_polynomials.h>
+#include <perideal/reconstruction/quadratic_fit.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Measure, centroid and second moment of (bi-, tri-)linear cells: three points in each direction integrate
+    /// all of them exactly.
+    template <int dim>
+    class CellIntegrals
+    {
+    public:
+      CellIntegrals()
+        : quadrature(3)
+      {
+        const dealii::FE_Q<dim> shape(1);
+        for (const auto &point : quadrature.get_points())
+          {
+            std::array<double, n_vertices>                 value;
+            std::array<dealii::Tensor<1, dim>, n_vertices> gradient;
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              {
+                value[v]    = shape.shape_value(v, point);
+                gradient[v] = shape.shape_grad(v, point);
+              }
+            values.push_back(value);
+            gradients.push_back(gradient);
+          }
+      }
+
+      template <typename Cell>
+      void integrate(const Cell                      &cell,
+                     dealii::Point<dim>              &centroid,
+                     dealii::SymmetricTensor<2, dim> &second_moment) const
+      {
+        std::array<dealii::Tensor<1, dim>, n_vertices> vertex;
+        for (unsigned int v = 0; v < n_vertices; ++v)
+          vertex[v] = cell->vertex(v) - cell->vertex(0);
+        double                          measure = 0;
+        dealii::Tensor<1, dim>          first;
+        dealii::SymmetricTensor<2, dim> second;
+        for (unsigned int q = 0; q < values.size(); ++q)
+          {
+            dealii::Tensor<1, dim> x;
+            dealii::Tensor<2, dim> jacobian;
+            for (unsigned int v = 0; v < n_vertices; ++v)
+              {
+                x += values[q][v] * vertex[v];
+                jacobian += outer_product(vertex[v], gradients[q][v]);
+              }
+            const double part = determinant(jacobian) * quadrature.weight(q);
+            measure += part;
+            first += part * x;
+            second += part * symmetrize(outer_product(x, x));
+          }
+        first /= measure;
+        centroid      = cell->vertex(0) + first;
+        second_moment = second / measure - symmetrize(outer_product(first, first));
+      }
+
+    private:
+      static constexpr unsigned int n_vertices = 1u << dim;
+
+      dealii::QGauss<dim>                                         quadrature;
+      std::vector<std::array<double, n_vertices>>                 values;
+      std::vector<std::array<dealii::Tensor<1, dim>, n_vertices>> gradients;
+    };
+  } // namespace
+
+  /// Fills the rows of CellPolynomials, cell by cell.
+  template <int dim>
+  class CellPolynomials<dim>::Builder
+  {
+  public:
+    using Cell    = typename CellGraph<dim>::Cell;
+    using Stencil = std::vector<LocalIndex>;
+
+    explicit Builder(CellPolynomials &result)
+      : result(result)
+      , graph(result.cells)
+    {
+    }
+
+    /// Takes the cells of this rank in the order of their nodes.
+    void add(const Cell &cell)
+    {
+      node            = graph.node_of(cell);
+      Stencil stencil = near(cell);
+      fit_to(stencil);
+      if (!fit.is_complete())
+        {
+          const unsigned int n_determined = fit.n_determined();
+          const Stencil      wider        = with_ring(cell, stencil);
+          fit_to(wider);
+          if (fit.n_determined() > n_determined)
+            stencil = wider;
+          else
+            fit_to(stencil);
+        }
+      result.is_deficient[node] = !fit.is_solid();
+      for (const LocalIndex k : stencil)
+        if (k != node)
+          result.column.push_back(k);
+      result.coefficient.insert(result.coefficient.end(), fit.rows().begin(), fit.rows().end());
+      result.row.push_back(result.column.size());
+    }
+
+  private:
+    /// The cells around a cell, and around those behind it.
+    Stencil near(const Cell &cell) const
+    {
+      Stencil stencil = graph.cells_around(cell);
+      for (const unsigned int f : cell->face_indices())
+        if (ends_at(cell, f))
+          visit_beyond(cell, dealii::GeometryInfo<dim>::opposite_face[f], [&](const Cell &behind) {
+            const Stencil more = graph.cells_around(behind);
+            stencil.insert(stencil.end(), more.begin(), more.end());
+          });
+      clean(stencil);
+      return stencil;
+    }
+
+    /// Whether the body or its material ends at a face of a cell.
+    bool ends_at(const Cell &cell, const unsigned int f) const
+    {
+      bool result = cell->at_boundary(f);
+      visit_beyond(cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
+      return result;
+    }
+
+    template <typename Visit>
+    static void visit_beyond(const Cell &cell, const unsigned int f, const Visit &visit)
+    {
+      if (cell->at_boundary(f))
+        return;
+      if (cell->face(f)->has_children())
+        for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
+          visit(Cell(cell->neighbor_child_on_subface(f, s)));
+      else
+        visit(Cell(cell->neighbor(f)));
+    }
+
+    Stencil with_ring(const Cell &cell, const Stencil &stencil) const
+    {
+      Stencil wider = stencil;
+      for (const LocalIndex k : graph.cells_around(cell))
+        if (is_alike(k))
+          {
+            const Stencil &more = graph.nodes_around(k);
+            wider.insert(wider.end(), more.begin(), more.end());
+          }
+      clean(wider);
+      return wider;
+    }
+
+    bool is_alike(const LocalIndex k) const { return graph.material[k] == graph.material[node]; }
+
+    /// Sorts a stencil and keeps what is of the material of its cell.
+    void clean(Stencil &stencil) const
+    {
+      stencil.erase(
+        std::remove_if(stencil.begin(), stencil.end(), [&](const LocalIndex k) { return !is_alike(k); }),
+        stencil.end());
+      // In the order of all ranks, so that sums do not depend on their number.
+      std::sort(stencil.begin(), stencil.end(), [&](const LocalIndex a, const LocalIndex b) {
+        return graph.global_number(a) < graph.global_number(b);
+      });
+      stencil.erase(std::unique(stencil.begin(), stencil.end()), stencil.end());
+    }
+
+    void fit_to(const Stencil &stencil)
+    {
+      others.clear();
+      for (const LocalIndex k : stencil)
+        if (k != node)
+          others.push_back({result.centroid[k] - result.centroid[node], result.moments[k]});
+      fit.reinit(result.moments[node], others);
+    }
+
+    CellPolynomials                            &result;
+    const CellGraph<dim>                       &graph;
+    LocalIndex                                  node = 0;
+    QuadraticFit<dim>                           fit;
+    std::vector<typename QuadraticFit<dim>::Cell> others;
+  };
+
+  template <int dim>
+  CellPolynomials<dim>::CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
+    : cells(mesh, nodes, GhostLayers::two)
+    , moments(nodes.size())
+    , centroid(nodes.size())
+    , volume(nodes.volume)
+    , is_deficient(nodes.size(), false)
+  {
+    const CellIntegrals<dim>                           integrals;
+    std::vector<typename CellGraph<dim>::Cell> cell_of_node(nodes.size());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const LocalIndex i = cells.node_of(cell);
+          cell_of_node[i]    = cell;
+          integrals.integrate(cell, centroid[i], moments[i]);
+        }
+    centroid = cells.with_ghosts(centroid);
+    moments  = cells.with_ghosts(moments);
+    Builder builder(*this);
+    for (const auto &cell : cell_of_node)
+      builder.add(cell);
+    cells.forget_layers();
+  }
+
+  template <int dim>
+  std::size_t CellPolynomials<dim>::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(row) + memory_consumption(column) + coefficient.size() * sizeof(Terms) +
+           moments.size() * sizeof(moments[0]) + memory_consumption(centroid) + memory_consumption(volume) +
+           cells.memory_consumption();
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(CellPolynomials)
+} // namespace perideal

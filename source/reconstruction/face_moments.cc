@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/reconstruction/face_moments.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// A quadrature point of a face and the area vector it stands for.
+    template <int dim>
+    struct FacePoint
+    {
+      dealii::Point<dim>     point;
+      dealii::Tensor<1, dim> area;
+    };
+
+    template <int dim>
+    using FacePoints = std::array<FacePoint<dim>, FaceMoments<dim>::n_points>;
+
+    const dealii::QGauss<1> &gauss()
+    {
+      static const dealii::QGauss<1> result(3);
+      return result;
+    }
+
+    template <typename Face>
+    FacePoints<2> points_on(const Face &face, const dealii::Point<2> &)
+    {
+      const auto    along = face->vertex(1) - face->vertex(0);
+      FacePoints<2> result;
+      for (unsigned int q = 0; q < 3; ++q)
+        result[q] = {face->vertex(0) + gauss().point(q)[0] * along,
+                     gauss().weight(q) * dealii::Point<2>(along[1], -along[0])};
+      return result;
+    }
+
+    template <typename Face>
+    FacePoints<3> points_on(const Face &face, const dealii::Point<3> &)
+    {
+      FacePoints<3> result;
+      const auto    bottom = face->vertex(1) - face->vertex(0), top = face->vertex(3) - face->vertex(2);
+      const auto    left = face->vertex(2) - face->vertex(0), right = face->vertex(3) - face->vertex(1);
+      for (unsigned int q = 0; q < 9; ++q)
+        {
+          const double a = gauss().point(q % 3)[0], b = gauss().point(q / 3)[0];
+          result[q].point = face->vertex(0) + (1. - b) * a * bottom + b * (left + a * top);
+          result[q].area  = gauss().weight(q % 3) * gauss().weight(q / 3) *
+                           cross_product_3d((1. - b) * bottom + b * top, (1. - a) * left + a * right);
+        }
+      return result;
+    }
+
+    /// Quadrature points of a cell's face, areas pointing out of the cell.
+    template <int dim, typename Cell>
+    FacePoints<dim> outward_points(const Cell &cell, const unsigned int face, const double thickness)
+    {
+      const auto middle = cell->center();
+      auto       points = points_on(cell->face(face), middle);
+      double     out    = 0;
+      for (const auto &p : points)
+        out += p.area * (p.point - middle);
+      for (auto &p : points)
+        p.area *= out > 0 ? thickness : -thickness;
+      return points;
+    }
+
+    /// Whether all area vectors have the direction of the first but for rounding.
+    template <int dim>
+    bool is_plane(const FacePoints<dim> &points)
+    {
+      const auto normal = points[0].area / points[0].area.norm();
+      return std::all_of(points.begin(), points.end(), [&](const FacePoint<dim> &p) {
+        return (p.area - (p.area * normal) * normal).norm() < 1e-12 * p.area.norm();
+      });
+    }
+  } // namespace
+
+  template <int dim>
+  FaceMoments<dim>::FaceMoments(const Mesh<dim>                                               &mesh,
+                                const CellGraph<dim>                                          &graph,
+                                const std::function<double(const dealii::types::material_id)> &stiffness)
+  {
+    const auto add_inner = [&](const Cell &cell, const unsigned int f, const Cell &other) {
+      const LocalIndex i = graph.node_of(cell), j = graph.node_of(other);
+      std::array<double, 2> share = {{0.5, 0.5}};
+      if (graph.material[i] != graph.material[j])
+        {
+          const double of_i = stiffness(graph.material[i]), of_j = stiffness(graph.material[j]);
+          share = {{of_i / (of_i + of_j), of_j / (of_i + of_j)}};
+        }
+      add(cell, f, {{{i, j}}, share, {}, false, 0}, mesh.thickness);
+    };
+    const auto add_inner_faces = [&](const Cell &cell, const unsigned int f) {
+      if (!cell->face(f)->has_children())
+        {
+          const Cell other = cell->neighbor(f);
+          if (cell->neighbor_is_coarser(f) || !other->is_locally_owned() ||
+              cell->active_cell_index() < other->active_cell_index())
+            add_inner(cell, f, other);
+          return;
+        }
+      for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
+        {
+          // Faces of owned cells are visited from there.
+          const Cell child = cell->neighbor_child_on_subface(f, s);
+          if (!child->is_locally_owned())
+            add_inner(child, cell->neighbor_face_no(f), cell);
+        }
+    };
+    for (const Cell &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          if (!cell->at_boundary(f))
+            add_inner_faces(cell, f);
+    n_inner = list.size();
+
+    for (const Cell &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f))
+            {
+              const auto number = static_cast<unsigned int>(list.size() - n_inner);
+              for (const auto &p : outward_points<dim>(cell, f, mesh.thickness))
+                points.push_back(
+                  {graph.node_of(cell), number, cell->face(f)->boundary_id(), p.point, p.area});
+              add(cell, f, {{{graph.node_of(cell), none}}, {{1., 0.}}, {}, false, 0}, mesh.thickness);
+            }
+  }
+
+  template <int dim>
+  void FaceMoments<dim>::add(const Cell &cell, const unsigned int f, const Face &face, const double thickness)
+  {
+    using M           = Monomials<dim>;
+    const auto points = outward_points<dim>(cell, f, thickness);
+    Face       result = face;
+    for (const auto &p : points)
+      result.centre += p.point / static_cast<double>(points.size());
+    result.is_plane = is_plane(points);
+    result.first    = value.size();
+    dealii::Tensor<1, dim> normal;
+    if (result.is_plane)
+      {
+        normal = points[0].area / points[0].area.norm();
+        for (unsigned int l = 0; l < dim; ++l)
+          value.push_back(normal[l]);
+      }
+    const std::size_t at = value.size();
+    value.resize(at + (result.is_plane ? 1 : dim) * M::n, 0.);
+    std::array<double, M::n> monomials;
+    for (const auto &p : points)
+      {
+        M::evaluate(p.point - result.centre, monomials);
+        if (result.is_plane)
+          for (unsigned int m = 0; m < M::n; ++m)
+            value[at + m] += (p.area * normal) * monomials[m];
+        else
+          for (unsigned int l = 0; l < dim; ++l)
+            for (unsigned int m = 0; m < M::n; ++m)
+              value[at + l * M::n + m] += p.area[l] * monomials[m];
+      }
+    list.push_back(result);
+  }
+
+  template <int dim>
+  std::size_t FaceMoments<dim>::memory_consumption() const
+  {
+    return list.size() * sizeof(Face) + dealii::MemoryConsumption::memory_consumption(value) +
+           points.size() * sizeof(BoundaryPoint<dim>);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(FaceMoments)
+} // namespace perideal
