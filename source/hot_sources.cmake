@@ -19,6 +19,7 @@ set(hot_sources
   operators/weights/gradient_moments.cc
   operators/weights/gradient_moments_loops.cc
   operators/weights/gradient_rows.cc
+  operators/weights/gradient_rows_exchange.cc
   reconstruction/linear_interpolation.cc
   operators/weights/correspondence_rows.cc
   operators/weights/correspondence_rows_matrix.cc

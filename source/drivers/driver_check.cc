@@ -41,7 +41,7 @@ namespace perideal
     print_materials();
     if (!kind.has_motion && !kind.has_iterations)
       {
-        problem.discretisation.make_gradients(problem.body);
+        problem.discretisation.gradients.make(problem.body);
         out << "suits       " << suitable_form(problem.parameters, thin_cells(problem)) << '\n';
       }
     for (const std::string &warning : warnings(problem))

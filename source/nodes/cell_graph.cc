@@ -28,10 +28,10 @@ namespace perideal
       exchange_second_layer(mesh, layers);
     if (layers == GhostLayers::two)
       {
-        around_owned.resize(n_owned_nodes);
+        around.owned.resize(n_owned_nodes);
         for (const Cell &cell : mesh.triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
-            around_owned[node_of(cell)] = cells_around(cell);
+            around.owned[node_of(cell)] = cells_around(cell);
       }
     local_number_of_ghost.clear();
   }
@@ -105,7 +105,7 @@ namespace perideal
   std::vector<LocalIndex> CellGraph<dim>::cells_around(const Cell &cell) const
   {
     if (!cell->is_locally_owned())
-      return around_ghost.at(node_of(cell));
+      return around.ghost.at(node_of(cell));
     std::vector<LocalIndex> result = {node_of(cell)};
     visit_vertices<dim>(cell, [&](const unsigned int vertex) { add_cells_at(vertex, result); });
     std::sort(result.begin(), result.end());
@@ -121,32 +121,30 @@ namespace perideal
     dealii::GridTools::exchange_cell_data_to_ghosts<Ghosts, dealii::Triangulation<dim>>(
       mesh.triangulation,
       [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghosts> {
-        const auto around = cells_around(cell);
-        const auto own    = material[node_of(cell)];
+        const auto touching = cells_around(cell);
+        const auto own      = material[node_of(cell)];
         if (layers == GhostLayers::one &&
-            std::all_of(around.begin(), around.end(), [&](LocalIndex i) { return material[i] == own; }))
+            std::all_of(touching.begin(), touching.end(), [&](LocalIndex i) { return material[i] == own; }))
           return {};
         Ghosts result;
-        for (const LocalIndex i : around)
+        for (const LocalIndex i : touching)
           result.emplace_back(global_number(i), std::make_pair(position[i], material[i]));
         return result;
       },
       [&](const Cell &cell, const Ghosts &ghosts) { received.emplace_back(node_of(cell), ghosts); });
     for (const auto &list : received)
       {
-        auto &around = around_ghost[list.first];
+        auto &of_ghost = around.ghost[list.first];
         for (const Ghost &ghost : list.second)
-          around.push_back(add_ghost(ghost));
-        std::sort(around.begin(), around.end());
+          of_ghost.push_back(add_ghost(ghost));
+        std::sort(of_ghost.begin(), of_ghost.end());
       }
   }
 
   template <int dim>
   void CellGraph<dim>::forget_layers()
   {
-    around_owned.clear();
-    around_owned.shrink_to_fit();
-    around_ghost.clear();
+    around = {};
   }
 
   template <int dim>

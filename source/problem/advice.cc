@@ -34,7 +34,7 @@ namespace perideal
   template <int dim>
   GlobalIndex thin_cells(const Problem<dim> &problem)
   {
-    const auto &deficient = problem.discretisation.deficient_cells();
+    const auto &deficient = problem.discretisation.gradients.deficient();
     return dealii::Utilities::MPI::sum<GlobalIndex>(std::count(deficient.begin(), deficient.end(), true),
                                                     problem.run.communicator);
   }

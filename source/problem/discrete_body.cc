@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
-#include <perideal/boundary/nodal_strain.h>
 #include <perideal/materials/models.h>
 #include <perideal/operators/force/correspondence_force.h>
 #include <perideal/operators/linear/consistent_operator.h>
@@ -41,50 +40,6 @@ namespace perideal
   }
 
   template <int dim>
-  const std::vector<BoundaryPoint<dim>> &DiscreteBody<dim>::make_gradients(const Body<dim> &body)
-  {
-    const auto stiffness = [&](const dealii::types::material_id id) {
-      return body.solids.at(id).isotropic().shear_modulus();
-    };
-    const ModelParameters &model = body.parameters.model;
-    if (model.is_consistent() && !model.is_correspondence())
-      {
-        if (!polynomials)
-          {
-            polynomials = std::make_shared<const CellPolynomials<dim>>(*body.mesh, *body.nodes);
-            face_moments =
-              std::make_shared<const FaceMoments<dim>>(*body.mesh, polynomials->graph(), stiffness);
-          }
-        return face_moments->boundary_points();
-      }
-    if (!gradient)
-      gradient = std::make_shared<const FaceGradient<dim>>(*body.mesh, *body.nodes, stiffness);
-    return gradient->boundary_points();
-  }
-
-  template <int dim>
-  const std::vector<bool> &DiscreteBody<dim>::deficient_cells() const
-  {
-    return polynomials ? polynomials->deficient() : gradient->deficient();
-  }
-
-  template <int dim>
-  std::vector<dealii::SymmetricTensor<2, dim>>
-  DiscreteBody<dim>::mean_strains(const Body<dim>                           &body,
-                                  const FaceValues<dim>                     &prescribed,
-                                  const NodalVector                         &unknowns,
-                                  const std::vector<dealii::Tensor<1, dim>> &displacement) const
-  {
-    if (gradient)
-      return compute_nodal_strain(*gradient, prescribed, *body.nodes, displacement);
-    moments->read(unknowns, GradientMoments<dim>::AtFaces::values);
-    std::vector<dealii::SymmetricTensor<2, dim>> result;
-    for (LocalIndex i = 0; i < moments->n_owned(); ++i)
-      result.push_back(symmetrize(moments->gradient_tensor(i)));
-    return result;
-  }
-
-  template <int dim>
   void DiscreteBody<dim>::weigh(const Body<dim>                        &body,
                                 const std::shared_ptr<FaceValues<dim>> &face_values,
                                 const BondPredicate<dim>               &is_cut)
@@ -106,11 +61,10 @@ namespace perideal
   void DiscreteBody<dim>::weigh_faces(const Body<dim>                        &body,
                                       const std::shared_ptr<FaceValues<dim>> &face_values)
   {
-    moments = std::make_shared<const GradientMoments<dim>>(
-      polynomials, face_moments, face_values, body.nodes->communicator);
+    gradients.make_moments(body, face_values);
     bonds = std::make_shared<ConsistentOperator<dim>>(
       families,
-      moments,
+      gradients.moments,
       create_consistent<dim>(body.parameters.model, body.parameters.nodes.horizon_factor),
       solids_of_model(body));
   }
@@ -125,7 +79,7 @@ namespace perideal
     const bool by_faces = parameters.is_consistent();
     correspondence      = std::make_shared<CorrespondenceRows<dim>>(
       families,
-      by_faces ? gradient : nullptr,
+      by_faces ? gradients.linear : nullptr,
       by_faces ? face_values : nullptr,
       create_correspondence<dim>(parameters),
       [&](const dealii::types::material_id id) { return body.solids.at(id); });

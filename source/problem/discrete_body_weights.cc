@@ -65,7 +65,7 @@ namespace perideal
                                 parameters.nodes.share_equal_families});
     bonds   = create_bond_operator<dim>(weights);
     if (parameters.model.has_surface_cure())
-      bonds = std::make_shared<SurfaceCure<dim>>(bonds, gradient, body.nodes->volume, solid_of);
+      bonds = std::make_shared<SurfaceCure<dim>>(bonds, gradients.linear, body.nodes->volume, solid_of);
   }
 
   template <int dim>

@@ -85,7 +85,7 @@ namespace perideal
   template <int dim>
   bool has_elastic_states(const Problem<dim> &problem)
   {
-    return problem.discretisation.has_gradients() || gradients_of_bonds(problem) != nullptr ||
+    return problem.discretisation.gradients || gradients_of_bonds(problem) != nullptr ||
            needs_strain(problem.parameters.field_names());
   }
 
@@ -103,12 +103,13 @@ namespace perideal
         return result;
       }
     const Nodes<dim> &nodes = *problem.body.nodes;
-    for (const auto &strain : problem.discretisation.has_gradients() ?
-                                problem.discretisation.mean_strains(problem.body,
-                                                                    *problem.loading.supports->face_values(),
-                                                                    problem.state.unknowns,
-                                                                    problem.state.displacement) :
-                                strains_of_families(problem))
+    for (const auto &strain :
+         problem.discretisation.gradients ?
+           problem.discretisation.gradients.mean_strains(nodes,
+                                                         *problem.loading.supports->face_values(),
+                                                         problem.state.unknowns,
+                                                         problem.state.displacement) :
+           strains_of_families(problem))
       result.push_back(elastic_state<dim>(strain, problem.body.solids.at(nodes.material[result.size()])));
     return result;
   }

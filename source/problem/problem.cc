@@ -49,7 +49,8 @@ namespace perideal
     if (model.is_linear_only() || model.is_consistent())
       {
         const Timings::Scope part(run.timings, "setup: gradients");
-        loading.supports->make_face_values(discretisation.make_gradients(body));
+        discretisation.gradients.make(body);
+        loading.supports->make_face_values(discretisation.gradients.boundary_points());
       }
     {
       const Timings::Scope part(run.timings, "setup: weights");
@@ -119,8 +120,8 @@ namespace perideal
   template <int dim>
   void Problem<dim>::store_displacement()
   {
-    if (discretisation.moments)
-      state.displacement = discretisation.moments->point_values(state.unknowns);
+    if (const auto &moments = discretisation.gradients.moments)
+      state.displacement = moments->point_values(state.unknowns);
     else
       {
         state.displacement.resize(body.nodes->size());

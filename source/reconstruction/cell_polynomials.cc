@@ -13,8 +13,8 @@ namespace perideal
 {
   namespace
   {
-    /// Measure, centroid and second moment of (bi-, tri-)linear cells: three points in each direction integrate
-    /// all of them exactly.
+    /// Measure, centroid and second moment of (bi-, tri-)linear cells: three points in each direction
+    /// integrate all of them exactly.
     template <int dim>
     class CellIntegrals
     {
@@ -186,10 +186,10 @@ namespace perideal
       fit.reinit(result.moments[node], others);
     }
 
-    CellPolynomials                            &result;
-    const CellGraph<dim>                       &graph;
-    LocalIndex                                  node = 0;
-    QuadraticFit<dim>                           fit;
+    CellPolynomials                              &result;
+    const CellGraph<dim>                         &graph;
+    LocalIndex                                    node = 0;
+    QuadraticFit<dim>                             fit;
     std::vector<typename QuadraticFit<dim>::Cell> others;
   };
 
@@ -201,7 +201,7 @@ namespace perideal
     , volume(nodes.volume)
     , is_deficient(nodes.size(), false)
   {
-    const CellIntegrals<dim>                           integrals;
+    const CellIntegrals<dim>                   integrals;
     std::vector<typename CellGraph<dim>::Cell> cell_of_node(nodes.size());
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())

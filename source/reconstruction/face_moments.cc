@@ -86,7 +86,7 @@ namespace perideal
                                 const std::function<double(const dealii::types::material_id)> &stiffness)
   {
     const auto add_inner = [&](const Cell &cell, const unsigned int f, const Cell &other) {
-      const LocalIndex i = graph.node_of(cell), j = graph.node_of(other);
+      const LocalIndex      i = graph.node_of(cell), j = graph.node_of(other);
       std::array<double, 2> share = {{0.5, 0.5}};
       if (graph.material[i] != graph.material[j])
         {
@@ -100,7 +100,7 @@ namespace perideal
         {
           const Cell other = cell->neighbor(f);
           if (cell->neighbor_is_coarser(f) || !other->is_locally_owned() ||
-              cell->active_cell_index() < other->active_cell_index())
+              graph.node_of(cell) < graph.node_of(other))
             add_inner(cell, f, other);
           return;
         }
@@ -112,15 +112,19 @@ namespace perideal
             add_inner(child, cell->neighbor_face_no(f), cell);
         }
     };
+    // In the order of the nodes, so that those of a cell's faces lie close in memory.
+    std::vector<Cell> cells(graph.n_owned());
     for (const Cell &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
-        for (const unsigned int f : cell->face_indices())
-          if (!cell->at_boundary(f))
-            add_inner_faces(cell, f);
+        cells[graph.node_of(cell)] = cell;
+    for (const Cell &cell : cells)
+      for (const unsigned int f : cell->face_indices())
+        if (!cell->at_boundary(f))
+          add_inner_faces(cell, f);
     n_inner = list.size();
 
-    for (const Cell &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
+    for (const Cell &cell : cells)
+      if (cell->at_boundary())
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             {

@@ -52,7 +52,8 @@ namespace perideal
   }
 
   template <int dim>
-  void QuadraticFit<dim>::fill_rows(const dealii::SymmetricTensor<2, dim> &own, const std::vector<Cell> &others)
+  void QuadraticFit<dim>::fill_rows(const dealii::SymmetricTensor<2, dim> &own,
+                                    const std::vector<Cell>               &others)
   {
     const auto means_about = [&](const Eigen::Matrix<double, dim, 1>   &y,
                                  const dealii::SymmetricTensor<2, dim> &second_moment,
@@ -79,9 +80,10 @@ namespace perideal
   }
 
   template <int dim>
-  typename QuadraticFit<dim>::Quadratic QuadraticFit<dim>::inverse_of(const Quadratic &gram, const double size)
+  typename QuadraticFit<dim>::Quadratic QuadraticFit<dim>::inverse_of(const Quadratic &gram,
+                                                                      const double     size)
   {
-    const double           smallest = tolerance * tolerance * size * size / n_quadratic;
+    const double                smallest = tolerance * tolerance * size * size / n_quadratic;
     const Eigen::LLT<Quadratic> cholesky(gram);
     if (cholesky.info() == Eigen::Success)
       {
@@ -118,8 +120,8 @@ namespace perideal
     const Metric                                  inverse = normal.inverse();
     const Eigen::Matrix<double, dim, n_quadratic> shift   = inverse * (linear.transpose() * quadratic);
     // Gram matrix of what linear terms leave of the quadratics.
-    Quadratic gram       = quadratic.transpose() * quadratic;
-    const double    size = std::sqrt(gram.trace());
+    Quadratic    gram = quadratic.transpose() * quadratic;
+    const double size = std::sqrt(gram.trace());
     gram -= (linear.transpose() * quadratic).transpose() * shift;
     const Quadratic inverse_gram = inverse_of(gram, size);
 
@@ -128,9 +130,10 @@ namespace perideal
     for (Eigen::Index k = 0; k < rows_of_means.rows(); ++k)
       {
         const Eigen::Matrix<double, dim, 1>         l = linear.row(k).transpose();
-        const Eigen::Matrix<double, n_quadratic, 1> q = inverse_gram * (quadratic.row(k).transpose() - shift.transpose() * l);
-        const Eigen::Matrix<double, dim, 1>         of_x = metric.transpose() * (inverse * l - shift * q);
-        Metric                                      hessian;
+        const Eigen::Matrix<double, n_quadratic, 1> q =
+          inverse_gram * (quadratic.row(k).transpose() - shift.transpose() * l);
+        const Eigen::Matrix<double, dim, 1> of_x = metric.transpose() * (inverse * l - shift * q);
+        Metric                              hessian;
         for (unsigned int p = 0; p < n_quadratic; ++p)
           {
             const auto [a, b] = SymmetricPairs<dim>::axes(p);

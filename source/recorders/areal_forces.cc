@@ -138,10 +138,11 @@ namespace perideal
           return problem.force ? partial_stress<dim>(*discretisation.families, *problem.force) :
                                  partial_stress<dim>(*discretisation.families, *discretisation.bonds);
         Stresses result;
-        for (const auto &strain : discretisation.mean_strains(body,
-                                                              *problem.loading.supports->face_values(),
-                                                              problem.state.unknowns,
-                                                              problem.state.displacement))
+        for (const auto &strain :
+             discretisation.gradients.mean_strains(*body.nodes,
+                                                   *problem.loading.supports->face_values(),
+                                                   problem.state.unknowns,
+                                                   problem.state.displacement))
           {
             const ElasticSolid<dim> &solid = body.solids.at(body.nodes->material[result.size()]);
             result.push_back(solid.stiffness() * strain);

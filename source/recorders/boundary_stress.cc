@@ -96,7 +96,7 @@ namespace perideal
       void conclude(const Step<dim> &step, const Record &record) override
       {
         const Body<dim>                      &body  = problem.body;
-        const CellGraph<dim>                 *graph = problem.discretisation.cell_graph();
+        const CellGraph<dim>                 *graph = problem.discretisation.gradients.graph();
         std::unique_ptr<const CellGraph<dim>> own_graph;
         if (graph == nullptr)
           {

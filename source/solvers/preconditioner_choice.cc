@@ -42,10 +42,12 @@ namespace perideal
       }
     result.length_in_horizons = length * nodes.n_global / mpi::sum(sum_of_horizons, nodes.communicator);
     result.symmetric          = system.is_symmetric();
-    // Measured: 2.0 to 2.5 with block Jacobi, 2.3 to 2.9 with the auxiliary space.
-    result.iteration_factor = consistent ? 2.4 : 1.;
-    // Measured: 12 against 7 ns.
-    result.bond_factor = consistent ? 1.7 : 1.;
+    // Measured with the consistent form: 2.0 to 3.4, and 6 to 10 in thin strips of long cells, with block
+    // Jacobi; 0.8 to 2.9 with the auxiliary space. Faces and polynomials take most of the time of its few
+    // bonds: 60 to 100 against 7 ns.
+    result.jacobi_factor    = consistent ? 3.4 : 1.;
+    result.auxiliary_factor = consistent ? 2. : 1.;
+    result.bond_factor      = consistent ? 12. : 1.;
     return result;
   }
 
@@ -83,9 +85,8 @@ namespace perideal
   SolveEstimate estimate_block_jacobi(const SolveSize &size, const double tolerance)
   {
     SolveEstimate result;
-    result.iterations =
-      5.5 * size.iteration_factor * size.length_in_horizons * share_of_eight_digits(tolerance);
-    result.solve = result.iterations * size.bond_factor * size.bonds;
+    result.iterations = 5.5 * size.jacobi_factor * size.length_in_horizons * share_of_eight_digits(tolerance);
+    result.solve      = result.iterations * size.bond_factor * size.bonds;
     if (!size.symmetric)
       {
         // GMRES orthogonalises, and begins anew every hundred iterations.
@@ -102,7 +103,7 @@ namespace perideal
     const double   cells  = parent ? size.parents : size.cells;
     const CellWork work   = cell_work(size.dim, parent);
     SolveEstimate  result;
-    result.iterations = 25 * size.iteration_factor * share_of_eight_digits(tolerance);
+    result.iterations = 25 * size.auxiliary_factor * share_of_eight_digits(tolerance);
     // The largest eigenvalue takes a few iterations.
     result.set_up = work.set_up * cells + 5 * size.bond_factor * size.bonds;
     result.solve  = result.iterations * (size.bond_factor * size.bonds + work.cycle * cells);

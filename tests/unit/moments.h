@@ -10,9 +10,8 @@ namespace perideal::test
 {
   /// Gradients and their moments of the cells of a mesh, of one material. Collective.
   template <int dim>
-  std::shared_ptr<const GradientMoments<dim>> make_moments(const Mesh<dim>                              &mesh,
-                                                           const Nodes<dim>                             &nodes,
-                                                           const std::shared_ptr<const FaceValues<dim>> &values)
+  std::shared_ptr<const GradientMoments<dim>> make_moments(
+    const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::shared_ptr<const FaceValues<dim>> &values)
   {
     const auto polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, nodes);
     return std::make_shared<const GradientMoments<dim>>(

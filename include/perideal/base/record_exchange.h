@@ -12,25 +12,24 @@
 
 namespace perideal
 {
-  /// Copies records of nodes to the ranks that have them as ghosts, without a vector of their own: the records of
-  /// ghosts stand behind those of the layout's owned ones. Collective.
+  /// Copies records of nodes to the ranks that have them as ghosts, without a vector of their own: the
+  /// records of ghosts stand behind those of the layout's owned ones. Collective.
   /// @param layout of four numbers a record
   inline void update_ghosts(const dealii::Utilities::MPI::Partitioner &layout,
                             dealii::AlignedVector<NodeRecord>         &records,
                             std::vector<double>                       &buffer)
   {
-    const unsigned int n = layout.locally_owned_size();
+    const unsigned int n   = layout.locally_owned_size();
     double            *all = records.data()->value;
     buffer.resize(layout.n_import_indices());
     std::vector<MPI_Request> requests;
-    layout.export_to_ghosted_array_start<double>(
-      0,
-      dealii::ArrayView<const double>(all, n),
-      dealii::ArrayView<double>(buffer.data(), buffer.size()),
-      dealii::ArrayView<double>(all + n, layout.n_ghost_indices()),
-      requests);
-    layout.export_to_ghosted_array_finish<double>(dealii::ArrayView<double>(all + n, layout.n_ghost_indices()),
-                                                  requests);
+    layout.export_to_ghosted_array_start<double>(0,
+                                                 dealii::ArrayView<const double>(all, n),
+                                                 dealii::ArrayView<double>(buffer.data(), buffer.size()),
+                                                 dealii::ArrayView<double>(all + n, layout.n_ghost_indices()),
+                                                 requests);
+    layout.export_to_ghosted_array_finish<double>(
+      dealii::ArrayView<double>(all + n, layout.n_ghost_indices()), requests);
   }
 
   /// Adds the records of ghosts to those of their owners. Collective.
@@ -38,7 +37,7 @@ namespace perideal
                             dealii::AlignedVector<NodeRecord>         &records,
                             std::vector<double>                       &buffer)
   {
-    const unsigned int n = layout.locally_owned_size();
+    const unsigned int n   = layout.locally_owned_size();
     double            *all = records.data()->value;
     buffer.resize(layout.n_import_indices());
     std::vector<MPI_Request>  requests;

@@ -63,7 +63,7 @@ namespace perideal
     /// The same by node, of graphs of two layers.
     const std::vector<LocalIndex> &nodes_around(const LocalIndex node) const
     {
-      return node < n_owned_nodes ? around_owned[node] : around_ghost.at(node);
+      return node < n_owned_nodes ? around.owned[node] : around.ghost.at(node);
     }
 
     /// Frees what nodes_around() needs.
@@ -109,10 +109,14 @@ namespace perideal
     /// Cells at each vertex.
     std::vector<unsigned int> first;
     std::vector<LocalIndex>   cells;
-    /// cells_around() of ghosts of which a second layer is known.
-    std::map<LocalIndex, std::vector<LocalIndex>> around_ghost;
-    std::map<GlobalIndex, LocalIndex>             local_number_of_ghost;
-    std::vector<std::vector<LocalIndex>>          around_owned;
+    /// cells_around() of ghosts of which a second layer is known, and of owned cells of graphs of two layers.
+    struct Around
+    {
+      std::map<LocalIndex, std::vector<LocalIndex>> ghost;
+      std::vector<std::vector<LocalIndex>>          owned;
+    };
+    Around                            around;
+    std::map<GlobalIndex, LocalIndex> local_number_of_ghost;
   };
 
   template <int dim>

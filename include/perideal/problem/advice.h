@@ -15,7 +15,7 @@ namespace perideal
   std::string suitable_form(const SceneParameters &parameters, const GlobalIndex n_thin);
 
   /// Cells of all ranks that have no gradient across the part that they lie in. Needs
-  /// problem.discretisation.gradient. Collective.
+  /// problem.discretisation.gradients. Collective.
   template <int dim>
   GlobalIndex thin_cells(const Problem<dim> &problem);
 

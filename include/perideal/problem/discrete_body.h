@@ -8,10 +8,9 @@
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/weights/correspondence_rows.h>
 #include <perideal/operators/weights/family_weights.h>
-#include <perideal/operators/weights/gradient_moments.h>
 #include <perideal/parameters/hyperelastic_law.h>
 #include <perideal/problem/body.h>
-#include <perideal/reconstruction/face_gradient.h>
+#include <perideal/problem/cell_gradients.h>
 
 #include <memory>
 #include <optional>
@@ -42,31 +41,6 @@ namespace perideal
     /// @param is_cut bonds that precracks cut; empty: none
     void find_parts(const Body<dim> &body, const BondPredicate<dim> &is_cut);
 
-    /// Makes what finds gradients from the faces of the body's cells, and returns the points of the faces at
-    /// its boundary. Collective.
-    const std::vector<BoundaryPoint<dim>> &make_gradients(const Body<dim> &body);
-
-    /// Returns mean strains of the cells, by owned node. Collective.
-    /// @param unknowns of the operator [m], of which the linear consistent form takes means over cells
-    /// @param displacement at the nodes [m], of which the other forms take it
-    std::vector<dealii::SymmetricTensor<2, dim>>
-    mean_strains(const Body<dim>                           &body,
-                 const FaceValues<dim>                     &prescribed,
-                 const NodalVector                         &unknowns,
-                 const std::vector<dealii::Tensor<1, dim>> &displacement) const;
-
-    /// The cells around cells, where gradients need them; else null.
-    const CellGraph<dim> *cell_graph() const
-    {
-      return polynomials ? &polynomials->graph() : gradient ? &gradient->graph() : nullptr;
-    }
-
-    /// Whether the strain of cells comes from their faces.
-    bool has_gradients() const { return gradient || polynomials; }
-
-    /// Owned cells across which gradients cannot be found.
-    const std::vector<bool> &deficient_cells() const;
-
     /// Weighs the families and makes the operator. Collective.
     /// @param face_values prescribed at faces, of models that read them
     void weigh(const Body<dim>                        &body,
@@ -90,11 +64,7 @@ namespace perideal
     std::shared_ptr<Families<dim>>     families;
     std::optional<ConnectedParts<dim>> parts;
     /// Where the scene needs gradients: the consistent form, strains and stresses do.
-    std::shared_ptr<const FaceGradient<dim>> gradient;
-    /// Of the linear consistent form in its place.
-    std::shared_ptr<const CellPolynomials<dim>> polynomials;
-    std::shared_ptr<const FaceMoments<dim>>     face_moments;
-    std::shared_ptr<const GradientMoments<dim>> moments;
+    CellGradients<dim> gradients;
 
     /// What the model made of the bonds; the consistent form has no such.
     std::unique_ptr<LinearModel<dim>>  model;

@@ -24,8 +24,8 @@ namespace perideal
    * of weighted least squares with the means of the monomials over each cell: exact for quadratic fields on
    * any mesh.
    *
-   * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies at
-   * the boundary or at another material, those around the cell behind it. Where they do not determine all
+   * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies
+   * at the boundary or at another material, those around the cell behind it. Where they do not determine all
    * quadratics it takes one ring more; what no ring determines is left out: linear terms are fitted first,
    * quadratics to what these leave.
    *

@@ -16,9 +16,9 @@ namespace perideal
    *
    *     T_lm = int_f n_l m(x - x_f) dA,
    *
-   * for the monomials up to degree three, by which quadratic polynomials are integrated over faces exactly, with
-   * their normal and with their first moment. On plane faces they are n_l t_m with one normal; bilinear ones
-   * have three such rows.
+   * for the monomials up to degree three, by which quadratic polynomials are integrated over faces exactly,
+   * with their normal and with their first moment. On plane faces they are n_l t_m with one normal; bilinear
+   * ones have three such rows.
    *
    * A face between cells of different sizes is one face for each of the finer cells.
    */
@@ -43,7 +43,8 @@ namespace perideal
 
     static constexpr LocalIndex none = static_cast<LocalIndex>(-1);
 
-    /// @param stiffness of a material, in any unit: at a face between two materials the stiffer one counts more
+    /// @param stiffness of a material, in any unit: at a face between two materials the stiffer one counts
+    /// more
     FaceMoments(const Mesh<dim>                                               &mesh,
                 const CellGraph<dim>                                          &graph,
                 const std::function<double(const dealii::types::material_id)> &stiffness);

@@ -9,8 +9,8 @@
 namespace perideal
 {
   /**
-   * The monomials of degree up to three, in the order 1; x, y, z; xx, yy, zz, xy, yz, zx; then the cubic ones. In
-   * 2-D 1; x, y; xx, yy, xy; then the cubic ones.
+   * The monomials of degree up to three, in the order 1; x, y, z; xx, yy, zz, xy, yz, zx; then the cubic
+   * ones. In 2-D 1; x, y; xx, yy, xy; then the cubic ones.
    */
   template <int dim>
   struct Monomials
@@ -25,7 +25,10 @@ namespace perideal
 
     /// Number of the monomial that monomial @p m, at most quadratic, becomes when it is multiplied with axis
     /// @p k.
-    static constexpr unsigned int times(const unsigned int m, const unsigned int k) { return table.times[m][k]; }
+    static constexpr unsigned int times(const unsigned int m, const unsigned int k)
+    {
+      return table.times[m][k];
+    }
 
     /// Values at a point [m^degree].
     static void evaluate(const dealii::Tensor<1, dim> &x, std::array<double, n> &value)

@@ -17,8 +17,9 @@ namespace perideal
     /// Longest edge of the body's bounding box over the mean horizon.
     double length_in_horizons = 0;
     bool   symmetric          = true;
-    /// Iterations over those that the forms with forces along bonds take.
-    double iteration_factor = 1;
+    /// Iterations over those that the forms with forces along bonds take, with block Jacobi and with the
+    /// auxiliary space.
+    double jacobi_factor = 1, auxiliary_factor = 1;
     /// Time of a bond's share of an iteration over that of these forms.
     double bond_factor = 1;
   };

@@ -78,7 +78,7 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
         const NodeRecord *near = state + n_records * i;
-        const Lanes       xi = lanes(x[i]), ui = lanes(near[0]);
+        const Lanes       xi = lanes(x[i]), ui    = lanes(near[0]);
         Parts             near_strain, own_stress = {};
         for (unsigned int p = 0; p < n_parts; ++p)
           near_strain[p] = lanes(near[1 + p]);
@@ -141,8 +141,8 @@ namespace perideal
         to_pairs<dim>(g, strain);
         stress_of(strain, stress);
         for (unsigned int p = 0; p < n_pairs; ++p)
-          stress[p] = volume * stress[p] + (dim == 2 ? work.stresses[i].value[p] :
-                                                       work.stresses[2 * i + p / 3].value[p % 3]);
+          stress[p] = volume * stress[p] +
+                      (dim == 2 ? work.stresses[i].value[p] : work.stresses[2 * i + p / 3].value[p % 3]);
         to_columns<dim>(stress, g);
 
         Pairs of_moment[dim];

@@ -56,8 +56,13 @@ namespace perideal
                 columns.push_back(row.column[k]);
                 values.emplace_back();
               }
+            double part = 0;
             for (int a = 0; a < dim; ++a)
-              values[at][a] += bond[a] * (sign * row.value[k] - 0.5 * (bond * row.gradient_of(a)[k]));
+              {
+                if (a == 0 || row.n_patterns > 1)
+                  part = sign * row.value[k] - 0.5 * (bond * row.gradient_of(a)[k]);
+                values[at][a] += part * bond[a];
+              }
           }
       }
 

@@ -122,16 +122,6 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<2, dim> GradientMoments<dim>::gradient_tensor(const LocalIndex i) const
-  {
-    dealii::Tensor<2, dim> result;
-    for (int a = 0; a < dim; ++a)
-      for (int l = 0; l < dim; ++l)
-        result[a][l] = gradient(i)[l].value[a];
-    return result;
-  }
-
-  template <int dim>
   std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::support_forces() const
   {
     // dU/du at the points of a face, of which V G_l and H_kl have the sums n_l u and n_l (x - x_i)_k u.
@@ -225,19 +215,6 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<1, dim> GradientMoments<dim>::value_at(const LocalIndex          cell,
-                                                        const dealii::Point<dim> &point) const
-  {
-    std::array<double, Monomials<dim>::n> monomial;
-    Monomials<dim>::evaluate(point - polynomials->centroids()[cell], monomial);
-    dealii::Tensor<1, dim> result;
-    for (unsigned int m = 0; m < n_coefficients; ++m)
-      for (int a = 0; a < dim; ++a)
-        result[a] += monomial[m] * work.polynomial[n_coefficients * cell + m].value[a];
-    return result;
-  }
-
-  template <int dim>
   std::vector<dealii::Tensor<1, dim>>
   GradientMoments<dim>::point_values(const NodalVector &displacement) const
   {
@@ -253,8 +230,8 @@ namespace perideal
   std::size_t GradientMoments<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return polynomials->memory_consumption() + face_moments->memory_consumption() + memory_consumption(column) +
-           faces_of_cells.size() * sizeof(Face) +
+    return polynomials->memory_consumption() + face_moments->memory_consumption() +
+           memory_consumption(column) + faces_of_cells.size() * sizeof(Face) +
            (work.displacement.size() + work.polynomial.size() + work.gradient.size() + work.moment.size() +
             work.value_force.size() + work.trace_force.size()) *
              sizeof(NodeRecord);

@@ -23,8 +23,8 @@ namespace perideal
    *     V G_l   = sum_f int_f n_l v,
    *     H_kl    = int (x_k - x_ik) du/dx_l = sum_f int_f n_l (x_k - x_ik) v - delta_kl V w_i,
    *
-   * with one value v at a face for both of its cells, the mean of their polynomials (CellPolynomials), or what is
-   * prescribed there. w_i is the mean of the displacement; taking the mean itself would make H of
+   * with one value v at a face for both of its cells, the mean of their polynomials (CellPolynomials), or
+   * what is prescribed there. w_i is the mean of the displacement; taking the mean itself would make H of
    * checkerboards, which faces do not see, three times that of their polynomials, and the largest eigenvalues
    * with it. So w_i is a mean smoothed over the cells around, chosen such that the trace of H is that
    * of the cell's polynomial,
@@ -65,22 +65,20 @@ namespace perideal
     /// Computes G, H and the values at the centroids of a displacement of owned nodes [m]. Collective.
     void read(const NodalVector &displacement, const AtFaces at_faces) const;
 
-    /// Of an owned cell, lanes by component of the displacement: G_l [-], H_kl [m^3] behind k dim + l, and the
-    /// value of its polynomial at the centroid [m]. After read().
+    /// Of an owned cell, lanes by component of the displacement: G_l [-], H_kl [m^3] behind k dim + l, and
+    /// the value of its polynomial at the centroid [m]. After read().
     NodeRecord       *gradient(const LocalIndex i) const { return work.gradient.data() + dim * i; }
     NodeRecord       *moment(const LocalIndex i) const { return work.moment.data() + dim * dim * i; }
     const NodeRecord &value(const LocalIndex i) const { return work.polynomial[n_coefficients * i]; }
     /// What acts on that value [N].
     NodeRecord &force(const LocalIndex i) const { return work.value_force[i]; }
 
-    /// G_l as a tensor du_a/dx_l.
-    dealii::Tensor<2, dim> gradient_tensor(const LocalIndex i) const;
-
     /// Computes the forces on nodes that belong to what acts on gradient(), moment() and value(), which the
     /// caller has written to gradient(), moment() [N m, N/m^2] and force(). Collective.
     void transpose(NodalVector &force) const;
 
-    /// Forces that supports exert on the body at the prescribed values [N], by entry, of the last transpose().
+    /// Forces that supports exert on the body at the prescribed values [N], by entry, of the last
+    /// transpose().
     std::vector<dealii::Tensor<1, dim>> support_forces() const;
 
     /// Forces by owned cell that act on a displacement besides those of the bonds.
@@ -111,13 +109,12 @@ namespace perideal
 
     /// Values of the polynomials at the centroids [m], by owned node, of the means. Collective.
     std::vector<dealii::Tensor<1, dim>> point_values(const NodalVector &displacement) const;
-    /// Value of a cell's polynomial at a point [m], after read().
-    dealii::Tensor<1, dim> value_at(const LocalIndex cell, const dealii::Point<dim> &point) const;
 
     std::size_t memory_consumption() const;
 
   private:
-    /// A face as the loops read it: cells in the numbers of polynomials, offsets of its centre from theirs [m].
+    /// A face as the loops read it: cells in the numbers of polynomials, offsets of its centre from theirs
+    /// [m].
     struct Face
     {
       LocalIndex    cell[2];

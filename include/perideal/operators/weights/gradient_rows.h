@@ -22,14 +22,14 @@ namespace perideal
   class GradientRows
   {
   public:
-    /// What the value at the centroid, the gradient and its moment of a cell take of each column. Components of
-    /// the displacement whose prescribed faces differ have rows of their own.
+    /// What the value at the centroid, the gradient and its moment of a cell take of each column. Components
+    /// of the displacement whose prescribed faces differ have rows of their own.
     struct Row
     {
-      std::vector<LocalIndex>                               column;
-      std::vector<double>                                   value;
-      std::array<unsigned int, dim>                         pattern = {};
-      unsigned int                                          n_patterns = 1;
+      std::vector<LocalIndex>                              column;
+      std::vector<double>                                  value;
+      std::array<unsigned int, dim>                        pattern    = {};
+      unsigned int                                         n_patterns = 1;
       std::array<std::vector<dealii::Tensor<1, dim>>, dim> gradient;
       std::array<std::vector<dealii::Tensor<2, dim>>, dim> moment;
 
@@ -95,19 +95,22 @@ namespace perideal
     void       exchange_rows(const std::vector<GlobalIndex> &wanted);
     LocalIndex column_of(const GlobalIndex number);
     unsigned   owner_of(const GlobalIndex number) const;
-    void       add_map(const Side &side, const unsigned int of_polynomial, const LocalIndex cell, Map &map) const;
+    void add_map(const Side &side, const unsigned int of_polynomial, const LocalIndex cell, Map &map) const;
     template <typename Visit>
     void visit_polynomial(const LocalIndex node, const Visit &visit) const;
-    void fill_pattern(const LocalIndex i, const unsigned int component, const unsigned int pattern, Row &row) const;
+    void fill_pattern(const LocalIndex   i,
+                      const unsigned int component,
+                      const unsigned int pattern,
+                      Row               &row) const;
 
-    const CellPolynomials<dim>           &polynomials;
-    const FaceMoments<dim>               &face_moments;
-    std::vector<GlobalIndex>              first_of_rank, further;
-    std::map<GlobalIndex, LocalIndex>     number_of;
-    std::vector<std::size_t>              first_side;
-    std::vector<Side>                     sides;
-    std::map<LocalIndex, Polynomial>      of_ghosts;
-    std::map<GlobalIndex, Row>            of_others;
+    const CellPolynomials<dim>       &polynomials;
+    const FaceMoments<dim>           &face_moments;
+    std::vector<GlobalIndex>          first_of_rank, further;
+    std::map<GlobalIndex, LocalIndex> number_of;
+    std::vector<std::size_t>          first_side;
+    std::vector<Side>                 sides;
+    std::map<LocalIndex, Polynomial>  of_ghosts;
+    std::map<GlobalIndex, Row>        of_others;
     /// Work space: where a column stands in the row that is made.
     mutable std::vector<LocalIndex> place;
   };

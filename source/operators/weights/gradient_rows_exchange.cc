@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/nodes/node_partitioner.h>
+#include <perideal/operators/weights/gradient_rows.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+// What GradientRows needs of other ranks.
+
+namespace perideal
+{
+  namespace
+  {
+    /// Asks ranks for what they have of the numbers, in their order. Collective.
+    /// @param answer a rank's own, by number
+    template <typename Answer, typename Function>
+    std::map<GlobalIndex, Answer> ask(const std::map<unsigned int, std::vector<GlobalIndex>> &wanted,
+                                      const Function                                         &answer,
+                                      MPI_Comm                                                communicator)
+    {
+      std::map<unsigned int, std::vector<Answer>> answers;
+      for (const auto &[rank, numbers] : dealii::Utilities::MPI::some_to_some(communicator, wanted))
+        for (const GlobalIndex number : numbers)
+          answers[rank].push_back(answer(number));
+      std::map<GlobalIndex, Answer> result;
+      for (const auto &[rank, list] : dealii::Utilities::MPI::some_to_some(communicator, answers))
+        for (std::size_t k = 0; k < list.size(); ++k)
+          result[wanted.at(rank)[k]] = list[k];
+      return result;
+    }
+
+    /// A row as ranks send it: columns by global number.
+    template <int dim>
+    struct PackedRow
+    {
+      std::vector<GlobalIndex>                   column;
+      std::vector<double>                        value;
+      std::vector<unsigned int>                  pattern;
+      std::vector<std::vector<double>>           gradient;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &column &value &pattern &gradient;
+      }
+    };
+
+    template <int n>
+    struct PackedPolynomial
+    {
+      std::vector<GlobalIndex> column;
+      std::vector<double>      row;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &column &row;
+      }
+    };
+  } // namespace
+
+  template <int dim>
+  unsigned int GradientRows<dim>::owner_of(const GlobalIndex number) const
+  {
+    // Ranks without nodes stand at the end of the range.
+    unsigned int result = 0;
+    for (unsigned int rank = 0; rank < first_of_rank.size(); ++rank)
+      if (first_of_rank[rank] <= number)
+        result = rank;
+    return result;
+  }
+
+  template <int dim>
+  LocalIndex GradientRows<dim>::column_of(const GlobalIndex number)
+  {
+    const auto inserted = number_of.insert({number, n_columns()});
+    if (inserted.second)
+      further.push_back(number);
+    return inserted.first->second;
+  }
+
+  template <int dim>
+  void GradientRows<dim>::exchange_polynomials()
+  {
+    const CellGraph<dim>  &graph = polynomials.graph();
+    std::set<LocalIndex>   beyond;
+    for (const auto &face : face_moments.faces())
+      for (const LocalIndex node : face.node)
+        if (node != FaceMoments<dim>::none && node >= graph.n_owned())
+          beyond.insert(node);
+    std::map<unsigned int, std::vector<GlobalIndex>> wanted;
+    for (const LocalIndex node : beyond)
+      wanted[owner_of(graph.global_number(node))].push_back(graph.global_number(node));
+    const auto received = ask<PackedPolynomial<dim>>(
+      wanted,
+      [&](const GlobalIndex number) {
+        PackedPolynomial<dim> result;
+        const LocalIndex      i = number - graph.global_number(0);
+        for (BondIndex k = polynomials.first()[i]; k < polynomials.first()[i + 1]; ++k)
+          {
+            result.column.push_back(graph.global_number(polynomials.columns()[k]));
+            const Terms &row = polynomials.coefficients()[k];
+            result.row.insert(result.row.end(), row.begin(), row.end());
+          }
+        return result;
+      },
+      graph.communicator);
+    for (const auto &[number, packed] : received)
+      {
+        Polynomial &polynomial = of_ghosts[number_of.at(number)];
+        for (std::size_t k = 0; k < packed.column.size(); ++k)
+          {
+            polynomial.column.push_back(column_of(packed.column[k]));
+            Terms row;
+            std::copy_n(packed.row.begin() + n_terms * k, n_terms, row.begin());
+            polynomial.row.push_back(row);
+          }
+      }
+  }
+
+  template <int dim>
+  void GradientRows<dim>::exchange_rows(const std::vector<GlobalIndex> &list)
+  {
+    const CellGraph<dim>                            &graph = polynomials.graph();
+    std::map<unsigned int, std::vector<GlobalIndex>> wanted;
+    for (const GlobalIndex number : list)
+      wanted[owner_of(number)].push_back(number);
+    const auto received = ask<PackedRow<dim>>(
+      wanted,
+      [&](const GlobalIndex number) {
+        Row row;
+        compute(number - graph.global_number(0), row);
+        PackedRow<dim> result;
+        for (const LocalIndex k : row.column)
+          result.column.push_back(global_number(k));
+        result.value = row.value;
+        result.pattern.assign(row.pattern.begin(), row.pattern.end());
+        for (unsigned int p = 0; p < row.n_patterns; ++p)
+          {
+            result.gradient.emplace_back();
+            for (const auto &gradient : row.gradient[p])
+              result.gradient.back().insert(
+                result.gradient.back().end(), gradient.begin_raw(), gradient.end_raw());
+          }
+        return result;
+      },
+      graph.communicator);
+    for (const auto &[number, packed] : received)
+      {
+        Row &row = of_others[number];
+        for (const GlobalIndex column : packed.column)
+          row.column.push_back(column_of(column));
+        row.value      = packed.value;
+        row.n_patterns = packed.gradient.size();
+        std::copy(packed.pattern.begin(), packed.pattern.end(), row.pattern.begin());
+        for (unsigned int p = 0; p < row.n_patterns; ++p)
+          for (std::size_t k = 0; k < row.column.size(); ++k)
+            {
+              dealii::Tensor<1, dim> gradient;
+              for (int l = 0; l < dim; ++l)
+                gradient[l] = packed.gradient[p][dim * k + l];
+              row.gradient[p].push_back(gradient);
+            }
+      }
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<2, dim>>
+  GradientRows<dim>::sum_to_owners(const std::vector<dealii::Tensor<2, dim>> &blocks) const
+  {
+    const CellGraph<dim>    &graph = polynomials.graph();
+    constexpr unsigned int   n     = dim * dim;
+    std::vector<GlobalIndex> ghosts;
+    for (LocalIndex k = graph.n_owned(); k < n_columns(); ++k)
+      ghosts.push_back(global_number(k));
+    const GlobalIndex n_all = dealii::Utilities::MPI::sum<GlobalIndex>(graph.n_owned(), graph.communicator);
+    NodalVector       sum(make_node_partitioner(
+      graph.global_number(0), graph.n_owned(), n_all, ghosts, n, graph.communicator));
+    for (LocalIndex k = 0; k < n_columns(); ++k)
+      for (unsigned int c = 0; c < n; ++c)
+        sum(n * global_number(k) + c) = blocks[k][c / dim][c % dim];
+    sum.compress(dealii::VectorOperation::add);
+    std::vector<dealii::Tensor<2, dim>> result(graph.n_owned());
+    for (LocalIndex i = 0; i < graph.n_owned(); ++i)
+      for (unsigned int c = 0; c < n; ++c)
+        result[i][c / dim][c % dim] = sum.local_element(n * i + c);
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(GradientRows)
+} // namespace perideal
