@@ -28,8 +28,8 @@ namespace perideal
   void CellGradients<dim>::make_moments(const Body<dim>                              &body,
                                         const std::shared_ptr<const FaceValues<dim>> &prescribed)
   {
-    moments = std::make_shared<const GradientMoments<dim>>(
-      polynomials, faces, prescribed, body.nodes->communicator);
+    moments =
+      std::make_shared<const GradientMoments<dim>>(polynomials, faces, prescribed, body.nodes->communicator);
   }
 
   template <int dim>

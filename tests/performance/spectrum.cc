@@ -8,6 +8,7 @@
 
 #include "bodies.h"
 #include "dense_matrix.h"
+#include "moments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,10 +58,8 @@ namespace
 
   /// The linear operator of a free body at rest.
   template <int dim>
-  std::shared_ptr<BondOperator<dim>> create_operator(const Mesh<dim>       &mesh,
-                                                     const test::Body<dim> &body,
-                                                     const double           horizon_factor,
-                                                     const Variant         &variant)
+  std::shared_ptr<BondOperator<dim>>
+  create_operator(const Mesh<dim> &mesh, const test::Body<dim> &body, const Variant &variant)
   {
     ModelParameters parameters;
     parameters.model         = variant.model;
@@ -84,11 +83,14 @@ namespace
         return std::make_shared<CorrespondenceTangent<dim>>(body.families, rows, laws);
       }
     if (parameters.is_consistent())
-      return std::make_shared<ConsistentOperator<dim>>(body.families,
-                                                       gradient,
-                                                       std::make_shared<const FaceValues<dim>>(),
-                                                       create_consistent<dim>(parameters, horizon_factor),
-                                                       solid_of);
+      {
+        const double own = parameters.form_traits().defaults.horizon_factor;
+        return std::make_shared<ConsistentOperator<dim>>(
+          test::Body<dim>(mesh, own).families,
+          test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>()),
+          create_consistent<dim>(parameters, own),
+          solid_of);
+      }
     std::shared_ptr<BondOperator<dim>> bonds =
       create_bond_operator<dim>(body.families, *create_model<dim>(parameters, 1.), solid_of);
     if (parameters.has_surface_cure())
@@ -139,7 +141,7 @@ namespace
     const auto          mesh = test::make_box<2>({24, 24}, {1., 1.}, 0.);
     const test::Body<2> body(*mesh, horizon_factor);
     const Spectrum      values =
-      measure(*create_operator<2>(*mesh, body, horizon_factor, {"correspondence", "family", stabilisation}));
+      measure(*create_operator<2>(*mesh, body, {"correspondence", "family", stabilisation}));
     std::cout << "| " << horizon_factor << " | " << stabilisation << " | " << values.n_zero << " | "
               << values.first << " |" << std::endl;
   }
@@ -155,7 +157,7 @@ namespace
     const test::Body<dim> body(*mesh, horizon_factor);
     for (const Variant &variant : variants)
       {
-        const Spectrum values = measure(*create_operator<dim>(*mesh, body, horizon_factor, variant));
+        const Spectrum values = measure(*create_operator<dim>(*mesh, body, variant));
         std::cout << "| " << variant.model << " | " << variant.form
                   << (variant.stabilisation == "0" ? ", no penalty" : "") << " | " << dim << " | "
                   << distortion << " | " << values.n_zero << " | " << values.n_negative << " | "

@@ -13,8 +13,8 @@
 
 namespace perideal
 {
-  /// What finds gradients from the faces of a body's cells, where a scene needs them: means over cells with their
-  /// moments in the linear consistent form, the linear gradient in all others.
+  /// What finds gradients from the faces of a body's cells, where a scene needs them: means over cells with
+  /// their moments in the linear consistent form, the linear gradient in all others.
   template <int dim>
   struct CellGradients
   {

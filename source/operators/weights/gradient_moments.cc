@@ -219,10 +219,16 @@ namespace perideal
   GradientMoments<dim>::point_values(const NodalVector &displacement) const
   {
     read_polynomials(displacement);
-    std::vector<dealii::Tensor<1, dim>> result(n_owned_cells);
+    std::vector<dealii::Tensor<1, dim>>   result(n_owned_cells);
+    std::array<double, Monomials<dim>::n> monomial;
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      for (int a = 0; a < dim; ++a)
-        result[i][a] = value(i).value[a];
+      {
+        // Nodes lie at centroids, unless they were perturbed.
+        Monomials<dim>::evaluate(polynomials->graph().position[i] - polynomials->centroids()[i], monomial);
+        for (unsigned int m = 0; m < n_coefficients; ++m)
+          for (int a = 0; a < dim; ++a)
+            result[i][a] += monomial[m] * work.polynomial[n_coefficients * i + m].value[a];
+      }
     return result;
   }
 

@@ -36,10 +36,10 @@ namespace perideal
     template <int dim>
     struct PackedRow
     {
-      std::vector<GlobalIndex>                   column;
-      std::vector<double>                        value;
-      std::vector<unsigned int>                  pattern;
-      std::vector<std::vector<double>>           gradient;
+      std::vector<GlobalIndex>         column;
+      std::vector<double>              value;
+      std::vector<unsigned int>        pattern;
+      std::vector<std::vector<double>> gradient;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -85,8 +85,8 @@ namespace perideal
   template <int dim>
   void GradientRows<dim>::exchange_polynomials()
   {
-    const CellGraph<dim>  &graph = polynomials.graph();
-    std::set<LocalIndex>   beyond;
+    const CellGraph<dim> &graph = polynomials.graph();
+    std::set<LocalIndex>  beyond;
     for (const auto &face : face_moments.faces())
       for (const LocalIndex node : face.node)
         if (node != FaceMoments<dim>::none && node >= graph.n_owned())
@@ -177,8 +177,8 @@ namespace perideal
     for (LocalIndex k = graph.n_owned(); k < n_columns(); ++k)
       ghosts.push_back(global_number(k));
     const GlobalIndex n_all = dealii::Utilities::MPI::sum<GlobalIndex>(graph.n_owned(), graph.communicator);
-    NodalVector       sum(make_node_partitioner(
-      graph.global_number(0), graph.n_owned(), n_all, ghosts, n, graph.communicator));
+    NodalVector       sum(
+      make_node_partitioner(graph.global_number(0), graph.n_owned(), n_all, ghosts, n, graph.communicator));
     for (LocalIndex k = 0; k < n_columns(); ++k)
       for (unsigned int c = 0; c < n; ++c)
         sum(n * global_number(k) + c) = blocks[k][c / dim][c % dim];

@@ -44,10 +44,10 @@ namespace
   };
 
   template <int dim>
-  const std::vector<std::pair<std::string, std::string>> variants = {{"bond based", "energy"},
-                                                                     {"ordinary", "energy"},
-                                                                     {"extended ordinary", "paper"},
-                                                                     {"extended ordinary", "energy"}};
+  const std::vector<std::pair<std::string, std::string>> models_and_forms = {{"bond based", "energy"},
+                                                                             {"ordinary", "energy"},
+                                                                             {"extended ordinary", "paper"},
+                                                                             {"extended ordinary", "energy"}};
 
   /// The largest difference over the largest value, of all ranks.
   double difference(NodalVector a, const NodalVector &b)
@@ -99,7 +99,7 @@ namespace
   void expect_the_same(const test::Body<dim> &body, const GlobalIndex n_different)
   {
     const bool alone = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-    for (const auto &variant : variants<dim>)
+    for (const auto &variant : models_and_forms<dim>)
       {
         SCOPED_TRACE(variant.first + ", " + variant.second);
         const Pair<dim> pair(body, variant.first, variant.second);

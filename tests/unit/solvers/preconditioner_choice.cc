@@ -72,8 +72,8 @@ TEST(PreconditionerChoice, GmresDislikesManyIterations)
 /// What a bond takes counts the more, the more iterations there are.
 TEST(PreconditionerChoice, DearBondsWantFewIterations)
 {
-  SolveSize size        = block(2, 44, false);
-  size.iteration_factor = 2.4;
+  SolveSize size     = block(2, 44, false);
+  size.jacobi_factor = size.auxiliary_factor = 2.4;
   EXPECT_EQ(chosen(size), "block jacobi");
   size.bond_factor = 1.7;
   EXPECT_EQ(chosen(size), "auxiliary, same");
@@ -86,8 +86,8 @@ TEST(PreconditionerChoice, EstimatesIterations)
   EXPECT_NEAR(estimate_block_jacobi(block(3, 32, false), 1e-8).iterations, 58, 1);
   EXPECT_NEAR(estimate_block_jacobi(block(3, 32, false), 1e-4).iterations, 29, 1);
   EXPECT_NEAR(estimate_auxiliary(block(3, 32, false), AuxiliaryMesh::same, 1e-8).iterations, 25, 1);
-  SolveSize harder        = block(3, 32, false);
-  harder.iteration_factor = 2;
+  SolveSize harder     = block(3, 32, false);
+  harder.jacobi_factor = harder.auxiliary_factor = 2;
   EXPECT_NEAR(estimate_block_jacobi(harder, 1e-8).iterations, 117, 1);
   EXPECT_NEAR(estimate_auxiliary(harder, AuxiliaryMesh::same, 1e-8).iterations, 50, 1);
 }

@@ -107,7 +107,7 @@ namespace perideal
                          const double      time,
                          NodalVector      &force) const;
 
-    /// Values of the polynomials at the centroids [m], by owned node, of the means. Collective.
+    /// Values of the polynomials at the nodes [m], by owned node, of a displacement of means. Collective.
     std::vector<dealii::Tensor<1, dim>> point_values(const NodalVector &displacement) const;
 
     std::size_t memory_consumption() const;
