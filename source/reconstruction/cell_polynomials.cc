@@ -107,6 +107,7 @@ namespace perideal
             fit_to(stencil);
         }
       result.is_deficient[node] = !fit.is_solid();
+      result.n_incomplete_cells += !fit.is_complete();
       for (const LocalIndex k : stencil)
         if (k != node)
           result.column.push_back(k);

@@ -9,8 +9,9 @@ namespace perideal
 {
   namespace
   {
-    /// Directions of quadratics whose singular value is below this part of the mean one are left out. Stencils
-    /// that determine them have 0.27 and more, distorted or not; two layers of distorted cells 0.08 at most.
+    /// Directions of quadratics whose singular value is below this part of the mean one are left out.
+    /// Stencils that determine them have 0.27 and more, distorted or not; two layers of distorted cells 0.08
+    /// at most.
     constexpr double tolerance = 0.15;
     /// Scales mixed quadratics, so that what is determined does not depend on the axes.
     const double root_2 = std::sqrt(2.);

@@ -66,6 +66,9 @@ namespace perideal
     /// Owned cells whose stencil lies in a plane (a body one cell thick), where linear fields are not exact.
     const std::vector<bool> &deficient() const { return is_deficient; }
 
+    /// Owned cells whose stencil does not determine all quadratics, those included.
+    LocalIndex n_incomplete() const { return n_incomplete_cells; }
+
     std::size_t memory_consumption() const;
 
   private:
@@ -79,6 +82,7 @@ namespace perideal
     std::vector<LocalIndex>                      column;
     std::vector<Terms>                           coefficient;
     std::vector<bool>                            is_deficient;
+    LocalIndex                                   n_incomplete_cells = 0;
   };
 } // namespace perideal
 
