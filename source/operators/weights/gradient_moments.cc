@@ -39,6 +39,8 @@ namespace perideal
   {
     const CellGraph<dim> &graph = polynomials->graph();
     const GlobalIndex     n_all = dealii::Utilities::MPI::sum<GlobalIndex>(n_owned_cells, communicator);
+    // A rank may have no cells.
+    const GlobalIndex own_first = n_owned_cells > 0 ? graph.global_number(0) : 0;
     // Ghosts of a list of local numbers of the graph, in the order of a partitioner.
     const auto ghosts_of = [&](const std::set<LocalIndex> &nodes) {
       std::vector<std::pair<GlobalIndex, LocalIndex>> result;
@@ -51,8 +53,7 @@ namespace perideal
       std::vector<GlobalIndex> numbers;
       for (const auto &ghost : ghosts)
         numbers.push_back(ghost.first);
-      return make_node_partitioner(
-        graph.global_number(0), n_owned_cells, n_all, numbers, 4 * n_records, communicator);
+      return make_node_partitioner(own_first, n_owned_cells, n_all, numbers, 4 * n_records, communicator);
     };
 
     std::set<LocalIndex> read;

@@ -176,9 +176,9 @@ namespace perideal
     std::vector<GlobalIndex> ghosts;
     for (LocalIndex k = graph.n_owned(); k < n_columns(); ++k)
       ghosts.push_back(global_number(k));
+    const GlobalIndex own_first = graph.n_owned() > 0 ? graph.global_number(0) : 0;
     const GlobalIndex n_all = dealii::Utilities::MPI::sum<GlobalIndex>(graph.n_owned(), graph.communicator);
-    NodalVector       sum(
-      make_node_partitioner(graph.global_number(0), graph.n_owned(), n_all, ghosts, n, graph.communicator));
+    NodalVector sum(make_node_partitioner(own_first, graph.n_owned(), n_all, ghosts, n, graph.communicator));
     for (LocalIndex k = 0; k < n_columns(); ++k)
       for (unsigned int c = 0; c < n; ++c)
         sum(n * global_number(k) + c) = blocks[k][c / dim][c % dim];
