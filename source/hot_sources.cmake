@@ -15,15 +15,15 @@ set(hot_sources
   reconstruction/cell_polynomials.cc
   reconstruction/face_gradient.cc
   reconstruction/face_moments.cc
+  reconstruction/linear_interpolation.cc
   reconstruction/quadratic_fit.cc
+  operators/weights/correspondence_rows.cc
+  operators/weights/correspondence_rows_matrix.cc
+  operators/weights/family_weights.cc
   operators/weights/gradient_moments.cc
   operators/weights/gradient_moments_loops.cc
   operators/weights/gradient_rows.cc
   operators/weights/gradient_rows_exchange.cc
-  reconstruction/linear_interpolation.cc
-  operators/weights/correspondence_rows.cc
-  operators/weights/correspondence_rows_matrix.cc
-  operators/weights/family_weights.cc
   operators/weights/tensor_weights.cc
   operators/force/contact_force.cc
   operators/force/correspondence_force.cc
