@@ -17,6 +17,7 @@ set(hot_sources
   reconstruction/face_moments.cc
   reconstruction/linear_interpolation.cc
   reconstruction/quadratic_fit.cc
+  operators/weights/consistent_bonds.cc
   operators/weights/correspondence_rows.cc
   operators/weights/correspondence_rows_matrix.cc
   operators/weights/family_weights.cc
@@ -25,6 +26,7 @@ set(hot_sources
   operators/weights/gradient_rows.cc
   operators/weights/gradient_rows_exchange.cc
   operators/weights/tensor_weights.cc
+  operators/force/consistent_force.cc
   operators/force/contact_force.cc
   operators/force/correspondence_force.cc
   operators/force/family_force.cc
@@ -39,6 +41,7 @@ set(hot_sources
   operators/linear/consistent_operator_loops.cc
   operators/linear/consistent_operator_matrix.cc
   operators/linear/correspondence_tangent.cc
+  operators/linear/deformed_cells.cc
   operators/linear/family_operator.cc
   operators/linear/family_operator_loops.cc
   operators/linear/family_operator_matrix.cc

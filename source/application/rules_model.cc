@@ -45,7 +45,7 @@ namespace perideal
       const std::string       &text      = scene.model.stabilisation;
       char                    *end       = nullptr;
       const double             value     = std::strtod(text.c_str(), &end);
-      const bool               fits      = scene.model.is_correspondence() ? value >= 0 : value > 0;
+      const bool               fits      = scene.model.is_consistent() ? value > 0 : value >= 0;
       return text != automatic && (text.empty() || *end != 0 || !fits || !std::isfinite(value));
     }
 
@@ -127,11 +127,11 @@ namespace perideal
              "this law is one of isotropic materials",
              "linear elastic | Saint Venant-Kirchhoff for materials of other symmetries"),
       refuse("Material/Stabilisation",
-             "out of its range, which Material/Model = correspondence widens",
+             "out of its range, which Material/Form = family widens",
              has_bad_stabilisation,
              "the stabilisation is out of range",
-             "automatic, or a number > 0 (Material/Model = correspondence: >= 0); without it the consistent "
-             "form has modes without energy"),
+             "automatic, or a number > 0 (Material/Form = family: >= 0); without it the consistent form has "
+             "modes without energy"),
       refuse(
         "Material/Multipliers",
         "Material/Model other than extended ordinary, or Material/Form = consistent",

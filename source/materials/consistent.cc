@@ -26,8 +26,8 @@ namespace perideal
     prm.add_parameter("Stabilisation",
                       parameters.stabilisation,
                       "Consistent form: factor of the bonds' energy, > 0 [-]; automatic: 1.1 in 2-D, 0.5 "
-                      "in 3-D; it hardly matters. Correspondence: alpha of the penalty over Young's "
-                      "modulus, >= 0 [-], 0: none; automatic: 5 with Form = family, as published, else 0.5");
+                      "in 3-D; it hardly matters. Form = family of correspondence: alpha of the penalty over "
+                      "Young's modulus, >= 0 [-], 0: none; automatic: 5, as published");
   }
 
   template <int dim>

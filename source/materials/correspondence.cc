@@ -94,19 +94,14 @@ namespace perideal
   {
     ModelTraits correspondence()
     {
-      // Penalties: as published with the gradient of the family, of the smallest errors with that of the
-      // faces. Tangents serve statics and load steps.
-      FormTraits consistent              = consistent_form(), family;
-      consistent.defaults.horizon_factor = 0.;
+      // Tangents serve statics and load steps.
+      FormTraits consistent = consistent_form(), family;
       for (FormTraits *form : {&consistent, &family})
-        {
-          form->defaults.influence_function = "gaussian";
-          form->solvers                     = {true, false, false};
-        }
-      consistent.defaults.stabilisation = {{0.5, 0.5}};
-      family.name                       = "family";
-      family.meaning                    = "the deformation gradient by the bonds of the family, as published";
-      family.defaults.stabilisation     = {{5., 5.}};
+        form->solvers = {true, false, false};
+      family.name    = "family";
+      family.meaning = "the deformation gradient by the bonds of the family, as published";
+      family.defaults.influence_function = "gaussian";
+      family.defaults.stabilisation      = {{5., 5.}};
 
       ModelTraits result;
       result.name               = "correspondence";

@@ -236,11 +236,6 @@ namespace perideal
                        (problem.parameters.model.model->has_law ? " that a gradient and what it misses take" :
                                                                   " moment conditions") +
                        ": enlarge Nodes/Horizon factor");
-    if (problem.parameters.model.is_correspondence() && consistent)
-      if (const GlobalIndex thin = thin_cells(problem); thin > 0)
-        result.push_back(grouped(thin) +
-                         " cells lie in parts one cell thick, across which they have no gradient: take "
-                         "two cells, or Material/Form = family");
     warn_of_two_layers(problem, result);
     if (problem.discretisation.parts->n_bonds_across > 0)
       result.push_back(

@@ -15,7 +15,7 @@ namespace perideal
       return body.solids.at(id).isotropic().shear_modulus();
     };
     const ModelParameters &model = body.parameters.model;
-    if (!model.is_consistent() || model.is_correspondence())
+    if (!model.is_consistent())
       {
         linear = std::make_shared<const FaceGradient<dim>>(*body.mesh, *body.nodes, stiffness);
         return;

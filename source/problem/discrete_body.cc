@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/materials/models.h>
+#include <perideal/operators/force/consistent_force.h>
 #include <perideal/operators/force/correspondence_force.h>
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
@@ -45,10 +46,13 @@ namespace perideal
                                 const BondPredicate<dim>               &is_cut)
   {
     const SceneParameters &parameters = body.parameters;
-    if (parameters.model.is_correspondence())
-      weigh_correspondence(body, face_values);
-    else if (parameters.model.is_consistent())
+    for (const auto &solid : body.solids)
+      if (parameters.model.is_correspondence())
+        laws[solid.first] = create_law<dim>(parameters.model.law, solid.second);
+    if (parameters.model.is_consistent())
       weigh_faces(body, face_values);
+    else if (parameters.model.is_correspondence())
+      weigh_correspondence(body);
     else if (parameters.quadrature.has_gauss_points())
       weigh_gauss_points(body);
     else
@@ -61,28 +65,24 @@ namespace perideal
   void DiscreteBody<dim>::weigh_faces(const Body<dim>                        &body,
                                       const std::shared_ptr<FaceValues<dim>> &face_values)
   {
+    const auto solid_of = solids_of_model(body);
     gradients.make_moments(body, face_values);
-    bonds = std::make_shared<ConsistentOperator<dim>>(
+    consistent_bonds = std::make_shared<ConsistentBonds<dim>>(
       families,
-      gradients.moments,
+      *gradients.polynomials,
       create_consistent<dim>(body.parameters.model, body.parameters.nodes.horizon_factor),
-      solids_of_model(body));
+      solid_of);
+    bonds =
+      std::make_shared<ConsistentOperator<dim>>(families, gradients.moments, consistent_bonds, solid_of);
   }
 
   template <int dim>
-  void DiscreteBody<dim>::weigh_correspondence(const Body<dim>                        &body,
-                                               const std::shared_ptr<FaceValues<dim>> &face_values)
+  void DiscreteBody<dim>::weigh_correspondence(const Body<dim> &body)
   {
-    const ModelParameters &parameters = body.parameters.model;
-    for (const auto &solid : body.solids)
-      laws[solid.first] = create_law<dim>(parameters.law, solid.second);
-    const bool by_faces = parameters.is_consistent();
-    correspondence      = std::make_shared<CorrespondenceRows<dim>>(
-      families,
-      by_faces ? gradients.linear : nullptr,
-      by_faces ? face_values : nullptr,
-      create_correspondence<dim>(parameters),
-      [&](const dealii::types::material_id id) { return body.solids.at(id); });
+    correspondence = std::make_shared<CorrespondenceRows<dim>>(
+      families, create_correspondence<dim>(body.parameters.model), [&](const dealii::types::material_id id) {
+        return body.solids.at(id);
+      });
     bonds = std::make_shared<CorrespondenceTangent<dim>>(families, correspondence, laws);
   }
 
@@ -122,6 +122,8 @@ namespace perideal
   template <int dim>
   std::unique_ptr<BondForce<dim>> DiscreteBody<dim>::create_force() const
   {
+    if (consistent_bonds)
+      return std::make_unique<ConsistentForce<dim>>(families, gradients.moments, consistent_bonds, laws);
     if (correspondence)
       return std::make_unique<CorrespondenceForce<dim>>(families, correspondence, laws);
     return create_bond_force<dim>(*weights);
@@ -130,9 +132,8 @@ namespace perideal
   template <int dim>
   std::shared_ptr<TangentOperator<dim>> DiscreteBody<dim>::create_tangent() const
   {
-    // Of the correspondence model, the operator at rest is the tangent.
-    if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds);
-        correspondence && tangent)
+    // Of models that follow a law, the operator at rest is the tangent.
+    if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds); tangent)
       return tangent;
     return perideal::create_tangent<dim>(std::shared_ptr<const BondWeights<dim>>(weights));
   }

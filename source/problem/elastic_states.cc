@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/boundary/nodal_strain.h>
-#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/force/continuum_force.h>
 #include <perideal/problem/elastic_states.h>
 #include <perideal/problem/output_fields.h>
 #include <perideal/reconstruction/family_fit.h>
@@ -11,9 +11,9 @@ namespace perideal
   namespace
   {
     template <int dim>
-    const CorrespondenceForce<dim> *gradients_of_bonds(const Problem<dim> &problem)
+    const ContinuumForce<dim> *force_by_law(const Problem<dim> &problem)
     {
-      return dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get());
+      return dynamic_cast<const ContinuumForce<dim> *>(problem.force.get());
     }
 
     /// Green's strain in space, of linear laws the small strain.
@@ -85,7 +85,7 @@ namespace perideal
   template <int dim>
   bool has_elastic_states(const Problem<dim> &problem)
   {
-    return problem.discretisation.gradients || gradients_of_bonds(problem) != nullptr ||
+    return problem.discretisation.gradients || force_by_law(problem) != nullptr ||
            needs_strain(problem.parameters.field_names());
   }
 
@@ -93,7 +93,7 @@ namespace perideal
   std::vector<ElasticState> elastic_states(const Problem<dim> &problem)
   {
     std::vector<ElasticState> result;
-    if (const auto *force = gradients_of_bonds(problem))
+    if (const auto *force = force_by_law(problem))
       {
         for (const auto &H : force->gradients())
           {

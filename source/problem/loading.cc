@@ -41,11 +41,9 @@ namespace perideal
   template <int dim>
   void Loading<dim>::surround(DiscreteBody<dim> &discretisation, Timings &timings)
   {
-    tractions            = create_tractions(treated_body(timings),
-                                 TreatedBonds<dim>{discretisation.families,
-                                                              discretisation.gradients.linear,
-                                                              discretisation.gradients.moments,
-                                                              solids_of_model(body)});
+    tractions = create_tractions(
+      treated_body(timings),
+      TreatedBonds<dim>{discretisation.families, discretisation.gradients.moments, solids_of_model(body)});
     discretisation.bonds = tractions->around(discretisation.bonds);
     moments              = discretisation.gradients.moments;
     if (const auto stiffness = tractions->stiffness())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
-#include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/force/continuum_force.h>
 #include <perideal/output/summary.h>
 #include <perideal/recorders/make_recorders.h>
 
@@ -36,7 +36,7 @@ namespace perideal
               find_largest_strain();
             return;
           }
-        if (const auto *force = dynamic_cast<const CorrespondenceForce<dim> *>(problem.force.get());
+        if (const auto *force = dynamic_cast<const ContinuumForce<dim> *>(problem.force.get());
             force != nullptr && dim == 2)
           {
             n_without_thickness                = count_without_thickness(*force);
@@ -71,7 +71,7 @@ namespace perideal
 
     private:
       /// Collective.
-      GlobalIndex count_without_thickness(const CorrespondenceForce<dim> &force) const
+      GlobalIndex count_without_thickness(const ContinuumForce<dim> &force) const
       {
         GlobalIndex number = 0;
         LocalIndex  i      = 0;

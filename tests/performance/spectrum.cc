@@ -46,9 +46,7 @@ namespace
                                          {"tensor involved", "surface cure", "automatic"},
                                          {"tensor involved", "consistent", "automatic"},
                                          {"correspondence", "family", "0"},
-                                         {"correspondence", "family", "automatic"},
-                                         {"correspondence", "consistent", "0"},
-                                         {"correspondence", "consistent", "automatic"}};
+                                         {"correspondence", "family", "automatic"}};
 
   template <int dim>
   ElasticConstants constants()
@@ -70,22 +68,17 @@ namespace
     const SolidOf<dim>      solid_of = [solid](const dealii::types::material_id) { return solid; };
     const auto              gradient =
       std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; });
-    if (parameters.is_correspondence())
+    if (parameters.is_correspondence() && !parameters.is_consistent())
       {
-        const bool                       by_faces = parameters.is_consistent();
-        std::shared_ptr<FaceValues<dim>> values   = by_faces ? std::make_shared<FaceValues<dim>>() : nullptr;
-        const auto                       rows     = std::make_shared<CorrespondenceRows<dim>>(body.families,
-                                                                    by_faces ? gradient : nullptr,
-                                                                    values,
-                                                                    create_correspondence<dim>(parameters),
-                                                                    solid_of);
-        const LawsByMaterial<dim>        laws     = {{0, create_law<dim>("linear elastic", solid)}};
+        const auto rows = std::make_shared<CorrespondenceRows<dim>>(
+          body.families, create_correspondence<dim>(parameters), solid_of);
+        const LawsByMaterial<dim> laws = {{0, create_law<dim>("linear elastic", solid)}};
         return std::make_shared<CorrespondenceTangent<dim>>(body.families, rows, laws);
       }
     if (parameters.is_consistent())
       {
         const double own = parameters.form_traits().defaults.horizon_factor;
-        return std::make_shared<ConsistentOperator<dim>>(
+        return test::make_consistent_operator<dim>(
           test::Body<dim>(mesh, own).families,
           test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>()),
           create_consistent<dim>(parameters, own),

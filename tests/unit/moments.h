@@ -2,7 +2,7 @@
 #ifndef perideal_tests_unit_moments_h
 #define perideal_tests_unit_moments_h
 
-#include <perideal/operators/weights/gradient_moments.h>
+#include <perideal/operators/linear/consistent_operator.h>
 
 #include <memory>
 
@@ -19,6 +19,21 @@ namespace perideal::test
       std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; }),
       values,
       nodes.communicator);
+  }
+
+  /// The operator of the consistent form, of bonds of its own. Collective.
+  template <int dim>
+  std::shared_ptr<ConsistentOperator<dim>>
+  make_consistent_operator(const std::shared_ptr<const Families<dim>>        &families,
+                           const std::shared_ptr<const GradientMoments<dim>> &moments,
+                           const Consistent<dim>                             &model,
+                           const SolidOf<dim>                                &solid_of)
+  {
+    return std::make_shared<ConsistentOperator<dim>>(
+      families,
+      moments,
+      std::make_shared<ConsistentBonds<dim>>(families, moments->cell_polynomials(), model, solid_of),
+      solid_of);
   }
 } // namespace perideal::test
 

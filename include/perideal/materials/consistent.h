@@ -13,14 +13,14 @@
 namespace perideal
 {
   /// The form of any model whose strains come from the faces of the mesh, as Material/Form = consistent
-  /// names it: of linear statics, with the stabilisation of Consistent.
+  /// names it, with the stabilisation of Consistent; unless a model follows a law, of linear statics.
   FormTraits consistent_form();
 
   /// Declares Material/Stabilisation.
   void declare_stabilisation(dealii::ParameterHandler &prm, ModelParameters &parameters);
 
   /**
-   * The consistent form of linear statics: the energy of the solid in strains that come from the faces of the
+   * The consistent form: the energy of the solid in strains that come from the faces of the
    * mesh, and bonds that hold what these do not explain. The unknown of a node is the mean of the
    * displacement over its cell. Each cell fits a quadratic to the means around it; a face takes the mean of
    * the two polynomials at it, or what is prescribed there; and by the divergence theorem the faces give a
@@ -36,6 +36,13 @@ namespace perideal
    * means) they are in exact equilibrium. Smooth fields converge with order about four, 3.5 where surfaces
    * are in the way. The bonds suppress displacements that faces do not see, such as checkerboards; 12
    * neighbours do in 2-D and 32 in 3-D.
+   *
+   * At finite strain, by any law W of the continuum, the energy of a cell is that of F = I + G at points with
+   * the second moments of the cell (CellPoints), and bonds compare squares of lengths with Green's strain,
+   *
+   *     r_ij = 1/2 (|y_j - y_i|^2 - |xi|^2) - 1/2 xi.(E_i + E_j) xi,
+   *
+   * which uniform deformations and rotations leave at zero. At rest its tangent is the linear form.
    *
    * The extended ordinary model is the isotropic case: W = kappa/2 tr(eps)^2 + mu |dev eps|^2, XOSB (22). The
    * weight of a bond is the spherical one of XOSB (28), with distances measured in the shape of the horizon:

@@ -25,14 +25,17 @@ namespace perideal
    * that G_i does not see (VNOSB fig. 2) cost nothing. A rigid rotation is a linear field, and costs nothing
    * with it.
    *
-   * Two gradients:
-   * - family, as published:  G_i u = [ sum_j w_ij V_j (u_j - u_i) (x) xi_ij ] K_i^-1,
-   *   K_i = sum_j w_ij V_j xi_ij (x) xi_ij   (3), (6);
-   *   bonds that broke are left out of both sums (20). Under it, sum_j w_ij V_j z_ij (x) xi_ij vanishes, and
-   *   the penalty adds nothing to the stress. (2) as printed pairs the stress of a neighbour with the shape
-   *   tensor of the node; the gradient of U pairs it with the neighbour's, as (11) does.
-   * - consistent: the face gradient (quadrature/face_gradient.h), by which bodies of any mesh and at free
-   *   surfaces meet uniform strain exactly, and bonds stabilise only.
+   * The gradient is that of the family,
+   *
+   *     G_i u = [ sum_j w_ij V_j (u_j - u_i) (x) xi_ij ] K_i^-1,   K_i = sum_j w_ij V_j xi_ij (x) xi_ij (3),
+   * (6);
+   *
+   * bonds that broke are left out of both sums (20). Under it, sum_j w_ij V_j z_ij (x) xi_ij vanishes, and
+   * the penalty adds nothing to the stress. (2) as printed pairs the stress of a neighbour with the shape
+   * tensor of the node; the gradient of U pairs it with the neighbour's, as (11) does.
+   *
+   * With gradients from faces the same laws are the consistent form at finite strain
+   * (materials/consistent.h).
    */
   template <int dim>
   class Correspondence

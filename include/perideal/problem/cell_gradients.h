@@ -14,7 +14,7 @@
 namespace perideal
 {
   /// What finds gradients from the faces of a body's cells, where a scene needs them: means over cells with
-  /// their moments in the linear consistent form, the linear gradient in all others.
+  /// their moments in the consistent form, the linear gradient in all others.
   template <int dim>
   struct CellGradients
   {
@@ -37,7 +37,7 @@ namespace perideal
     const std::vector<bool> &deficient() const;
 
     /// Returns mean strains of the cells, by owned node. Collective.
-    /// @param unknowns of the operator [m], of which the linear consistent form takes means over cells
+    /// @param unknowns of the operator [m], of which the consistent form takes means over cells
     /// @param displacement at the nodes [m], of which the other forms take it
     std::vector<dealii::SymmetricTensor<2, dim>>
     mean_strains(const Nodes<dim>                          &nodes,

@@ -6,6 +6,7 @@
 #include <perideal/neighbourhood/connected_parts.h>
 #include <perideal/operators/linear/bond_operator.h>
 #include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/weights/consistent_bonds.h>
 #include <perideal/operators/weights/correspondence_rows.h>
 #include <perideal/operators/weights/family_weights.h>
 #include <perideal/parameters/hyperelastic_law.h>
@@ -73,8 +74,10 @@ namespace perideal
     /// What became of the families, of all ranks and by owned node.
     FamilyCounts              counts;
     std::vector<FamilyReport> reports;
-    /// Of the correspondence model, in the place of weights.
-    LawsByMaterial<dim>                      laws;
+    /// Of the correspondence model.
+    LawsByMaterial<dim> laws;
+    /// What families without weights have in their place: of the consistent form, of correspondence.
+    std::shared_ptr<ConsistentBonds<dim>>    consistent_bonds;
     std::shared_ptr<CorrespondenceRows<dim>> correspondence;
     /// C of whole families by their quadrature [Pa], where the scene needs it.
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
@@ -83,7 +86,7 @@ namespace perideal
     void weigh_nodes(const Body<dim> &body, const BondPredicate<dim> &is_cut);
     void weigh_gauss_points(const Body<dim> &body);
     void weigh_faces(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
-    void weigh_correspondence(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
+    void weigh_correspondence(const Body<dim> &body);
   };
 
   /// Returns the solids as the model of the scene takes them: bond-based ones have a Poisson's ratio of

@@ -13,8 +13,8 @@ namespace perideal
   template <int dim>
   bool has_elastic_states(const Problem<dim> &problem);
 
-  /// Returns strain and stress of the owned nodes: of the consistent form from the face gradient of the
-  /// displacement, of the correspondence model in nonlinear statics those of its bonds, of all others from
+  /// Returns strain and stress of the owned nodes: of the consistent form the means over cells, of
+  /// nonlinear statics by a law those of its gradients, of all others from
   /// linear fits to their families (FamilyFit), because their displacement jitters from cell to cell.
   /// Collective.
   template <int dim>

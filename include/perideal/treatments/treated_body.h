@@ -7,7 +7,6 @@
 #include <perideal/materials/linear_model.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/operators/weights/gradient_moments.h>
-#include <perideal/reconstruction/face_gradient.h>
 
 #include <memory>
 #include <vector>
@@ -31,8 +30,6 @@ namespace perideal
   struct TreatedBonds
   {
     std::shared_ptr<const Families<dim>> families;
-    /// Where the scene needs one.
-    std::shared_ptr<const FaceGradient<dim>> gradient;
     /// Of the consistent form.
     std::shared_ptr<const GradientMoments<dim>> moments;
     /// As the model takes them.

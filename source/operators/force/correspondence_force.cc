@@ -69,13 +69,12 @@ namespace perideal
     this->move_nodes(displacement);
     update_rows();
     last = displacement;
-    rows->read(displacement, CorrespondenceRows<dim>::AtFaces::values);
+    rows->read(displacement);
     if (this->can_break())
       break_bonds();
     rows->forces(
       force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) { return law_of_node[i]->stress(g); });
     force *= -1.;
-    support = rows->support_forces();
   }
 
   template <int dim>
@@ -146,7 +145,7 @@ namespace perideal
   template <int dim>
   double CorrespondenceForce<dim>::strain_energy() const
   {
-    rows->read(last, CorrespondenceRows<dim>::AtFaces::values);
+    rows->read(last);
     double result = 0;
     rows->visit_gradients([&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
       result += families->volume[i] * law_of_node[i]->energy(g) + rows->penalty_energy(i, g);
@@ -164,18 +163,9 @@ namespace perideal
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> CorrespondenceForce<dim>::gradients() const
   {
-    rows->read(last, CorrespondenceRows<dim>::AtFaces::values);
+    rows->read(last);
     std::vector<dealii::Tensor<2, dim>> result;
     rows->visit_gradients([&](const LocalIndex, const dealii::Tensor<2, dim> &g) { result.push_back(g); });
-    return result;
-  }
-
-  template <int dim>
-  std::vector<dealii::SymmetricTensor<2, 3>> CorrespondenceForce<dim>::cauchy_stresses() const
-  {
-    std::vector<dealii::SymmetricTensor<2, 3>> result;
-    for (const auto &g : gradients())
-      result.push_back(law_of_node[result.size()]->cauchy_stress(g));
     return result;
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
-#include <perideal/base/record_exchange.h>
 #include <perideal/operators/linear/consistent_operator.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -15,34 +14,17 @@ namespace perideal
   template <int dim>
   ConsistentOperator<dim>::ConsistentOperator(const std::shared_ptr<const Families<dim>>        &families,
                                               const std::shared_ptr<const GradientMoments<dim>> &moments,
-                                              const Consistent<dim>                             &model,
+                                              const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
                                               const SolidOf<dim>                                &solid_of)
     : families(families)
     , moments(moments)
-    , model(model)
-    , bonds(*families)
+    , bonds(bonds)
+    , dilatations(families->n_owned())
   {
-    const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
-    this->partitioner = families->make_partitioner(dim);
-    of_states         = families->make_partitioner(4 * n_records);
-    work.states.resize(n_records * n_local, NodeRecord{});
-    work.forces.resize(n_local, NodeRecord{});
-    work.stresses.resize(n_parts * n_local, NodeRecord{});
-    work.dilatation.resize(n_owned);
-
-    // Centroids of the ghosts, which their owners know.
-    const auto &centroids = moments->cell_polynomials().centroids();
-    for (LocalIndex i = 0; i < n_owned; ++i)
-      for (int d = 0; d < dim; ++d)
-        work.states[n_records * i].value[d] = centroids[i][d];
-    update_ghosts(*of_states, work.states, work.temporary);
-    positions.resize(n_local, NodeRecord{});
-    for (LocalIndex i = 0; i < n_local; ++i)
-      positions[i] = work.states[n_records * i];
-
+    const LocalIndex n_owned = families->n_owned();
+    this->partitioner        = families->make_partitioner(dim);
     set_solids(solid_of);
     set_moments();
-    weigh_bonds(solid_of);
 
     const std::vector<bool> &deficient = moments->cell_polynomials().deficient();
     this->reports.resize(n_owned);
@@ -55,29 +37,12 @@ namespace perideal
   }
 
   template <int dim>
-  void ConsistentOperator<dim>::weigh_bonds(const SolidOf<dim> &solid_of)
+  void ConsistentOperator<dim>::linearise(const BondForce<dim> &force)
   {
-    stiffness.assign(bonds.n_slots(), 0.);
-    std::map<dealii::types::material_id, double> modulus_of;
-    for (const auto id : families->material)
-      if (modulus_of.count(id) == 0)
-        modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
-    const auto distance_square = [&](const LocalIndex m, const dealii::Tensor<1, dim> &bond) {
-      return families->shape.empty() ? bond.norm_square() / (families->horizon[m] * families->horizon[m]) :
-                                       (families->shape[m] * bond).norm_square();
-    };
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
-        {
-          const LocalIndex j = bonds.neighbour[k];
-          if (j == i || families->material[j] != families->material[i])
-            continue;
-          const auto   bond          = families->position[j] - families->position[i];
-          const double length_square = bond.norm_square(), modulus = modulus_of[families->material[i]];
-          stiffness[k] =
-            model.bond_stiffness(length_square, distance_square(i, bond), families->volume[j], modulus) +
-            model.bond_stiffness(length_square, distance_square(j, bond), families->volume[i], modulus);
-        }
+    const auto *from = dynamic_cast<const ConsistentForce<dim> *>(&force);
+    AssertThrow(from != nullptr, dealii::ExcInternalError());
+    if (!from->is_linear())
+      deformed.emplace(*families, moments, bonds, *from);
   }
 
   template <int dim>
@@ -119,18 +84,16 @@ namespace perideal
   template <int dim>
   std::vector<double> ConsistentOperator<dim>::dilatation() const
   {
-    return work.dilatation;
+    return dilatations;
   }
 
   template <int dim>
   std::size_t ConsistentOperator<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return bonds.memory_consumption() + memory_consumption(stiffness) + memory_consumption(solid_of_node) +
-           inverse_moment.size() * sizeof(Pairs) +
-           (positions.size() + work.states.size() + work.forces.size() + work.stresses.size()) *
-             sizeof(NodeRecord) +
-           moments->memory_consumption();
+    return bonds->memory_consumption() + memory_consumption(solid_of_node) +
+           inverse_moment.size() * sizeof(Pairs) + moments->memory_consumption() +
+           (deformed ? deformed->memory_consumption() : 0);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ConsistentOperator)

@@ -12,7 +12,11 @@
 //     K_ab = sum_lm C_albm [ V G_l G_m + sum_kn (M^-1)_kn H_kl H_nm ],
 //
 // and a bond b rho rho^T with rho = dr/du, of which component a is
-// xi_a [ p_j - p_i - 1/2 xi.(G_i + G_j) ], G that of the component.
+//
+//     xi_a (p_j - p_i) - 1/2 [ (F_i xi)_a xi.G_i + (F_j xi)_a xi.G_j ],   G that of the component,
+//
+// F being 1 in a body at rest. In a deformed one, the first xi_a is y_a, and b r (p_j - p_i)(p_j - p_i)^T
+// adds to it.
 
 namespace perideal
 {
@@ -21,7 +25,14 @@ namespace perideal
     template <int dim>
     using Row = typename GradientRows<dim>::Row;
 
-    /// dr/du of a bond, by column.
+    /// Where a bond pulls its ends, and where it feels the gradients there.
+    template <int dim>
+    struct BondDirections
+    {
+      dealii::Tensor<1, dim> bond, pull, near, far;
+    };
+
+    /// dr/du of a bond and the difference p_j - p_i, by column.
     template <int dim>
     class BondRow
     {
@@ -31,21 +42,34 @@ namespace perideal
       {
       }
 
-      void compute(const dealii::Tensor<1, dim> &bond, const Row<dim> &near, const Row<dim> &far)
+      void compute(const BondDirections<dim> &directions, const Row<dim> &near, const Row<dim> &far)
       {
         for (const LocalIndex k : columns)
           place[k] = nowhere;
         columns.clear();
         values.clear();
-        add(bond, near, -1.);
-        add(bond, far, 1.);
+        differences.clear();
+        add(directions, directions.near, near, -1.);
+        add(directions, directions.far, far, 1.);
       }
 
-      std::vector<LocalIndex>             columns;
-      std::vector<dealii::Tensor<1, dim>> values;
+      /// The block of two columns of a bond's energy.
+      dealii::Tensor<2, dim>
+      block_of(const std::size_t k, const std::size_t m, const double stiffness, const double tension) const
+      {
+        dealii::Tensor<2, dim> result = stiffness * outer_product(values[k], values[m]);
+        for (int a = 0; a < dim; ++a)
+          result[a][a] += tension * differences[k] * differences[m];
+        return result;
+      }
+
+      std::vector<LocalIndex> columns;
 
     private:
-      void add(const dealii::Tensor<1, dim> &bond, const Row<dim> &row, const double sign)
+      void add(const BondDirections<dim>    &directions,
+               const dealii::Tensor<1, dim> &end,
+               const Row<dim>               &row,
+               const double                  sign)
       {
         for (std::size_t k = 0; k < row.column.size(); ++k)
           {
@@ -55,19 +79,23 @@ namespace perideal
                 at = columns.size();
                 columns.push_back(row.column[k]);
                 values.emplace_back();
+                differences.push_back(0.);
               }
-            double part = 0;
+            differences[at] += sign * row.value[k];
+            double along = 0;
             for (int a = 0; a < dim; ++a)
               {
                 if (a == 0 || row.n_patterns > 1)
-                  part = sign * row.value[k] - 0.5 * (bond * row.gradient_of(a)[k]);
-                values[at][a] += part * bond[a];
+                  along = directions.bond * row.gradient_of(a)[k];
+                values[at][a] += sign * row.value[k] * directions.pull[a] - 0.5 * along * end[a];
               }
           }
       }
 
-      static constexpr LocalIndex nowhere = static_cast<LocalIndex>(-1);
-      std::vector<LocalIndex>     place;
+      static constexpr LocalIndex         nowhere = static_cast<LocalIndex>(-1);
+      std::vector<dealii::Tensor<1, dim>> values;
+      std::vector<double>                 differences;
+      std::vector<LocalIndex>             place;
     };
 
     /// The block of two columns of a cell's energy.
@@ -112,6 +140,7 @@ namespace perideal
                                            const VisitBond         &visit_bond) const
   {
     const LocalIndex n_owned = families->n_owned();
+    const BondList  &list    = bonds->list();
     // Rows are made when a bond first reaches them, and dropped when all of their bonds are done.
     std::vector<std::unique_ptr<Row<dim>>> kept(n_owned);
     const auto                             row_of = [&](const LocalIndex i) -> const Row<dim>                             &{
@@ -131,17 +160,23 @@ namespace perideal
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
         const Row<dim> &near = row_of(i);
-        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+        for (BondIndex k = list.row[i]; k < list.row[i + 1]; ++k)
           {
-            const LocalIndex j = bonds.neighbour[k];
+            const LocalIndex j = list.neighbour[k];
             // A bond that the partition cuts is that of the rank of its lower end.
-            if (stiffness[k] == 0. || families->global_number(j) < families->global_number(i))
+            if (bonds->stiffness(k) == 0. || families->global_number(j) < families->global_number(i))
               continue;
-            dealii::Tensor<1, dim> bond;
-            for (int d = 0; d < dim; ++d)
-              bond[d] = positions[j].value[d] - positions[i].value[d];
-            of_bond.compute(bond, near, row_of(j));
-            visit_bond(stiffness[k], of_bond);
+            const dealii::Tensor<1, dim> bond = bonds->bond(i, j);
+            if (deformed)
+              of_bond.compute({bond,
+                               deformed->bond(i, j),
+                               deformed->deformation(i) * bond,
+                               deformed->deformation(j) * bond},
+                              near,
+                              row_of(j));
+            else
+              of_bond.compute({bond, bond, bond, bond}, near, row_of(j));
+            visit_bond(bonds->stiffness(k), deformed ? deformed->tension(k) : 0., of_bond);
           }
         kept[i].reset();
       }
@@ -157,6 +192,24 @@ namespace perideal
   }
 
   template <int dim>
+  template <typename Visit>
+  void ConsistentOperator<dim>::visit_blocks(const LocalIndex                       i,
+                                             const typename GradientRows<dim>::Row &row,
+                                             const Visit                           &visit) const
+  {
+    if (deformed)
+      {
+        visit([&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, row, k, m); });
+        return;
+      }
+    const double volume  = moments->cell_polynomials().volumes()[i];
+    const auto   inverse = inverse_moment_of(i);
+    visit([&](const std::size_t k, const std::size_t m) {
+      return perideal::block_of<dim>(row, k, m, volume, inverse, stiffness_of(i));
+    });
+  }
+
+  template <int dim>
   std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
   {
     const GradientRows<dim>             rows = make_rows();
@@ -164,14 +217,14 @@ namespace perideal
     visit_rows(
       rows,
       [&](const LocalIndex i, const Row<dim> &row) {
-        const double volume  = moments->cell_polynomials().volumes()[i];
-        const auto   inverse = inverse_moment_of(i);
-        for (std::size_t k = 0; k < row.column.size(); ++k)
-          blocks[row.column[k]] += block_of<dim>(row, k, k, volume, inverse, stiffness_of(i));
+        visit_blocks(i, row, [&](const auto &block) {
+          for (std::size_t k = 0; k < row.column.size(); ++k)
+            blocks[row.column[k]] += block(k, k);
+        });
       },
-      [&](const double b, const BondRow<dim> &bond) {
+      [&](const double stiffness, const double tension, const BondRow<dim> &bond) {
         for (std::size_t k = 0; k < bond.columns.size(); ++k)
-          blocks[bond.columns[k]] += b * outer_product(bond.values[k], bond.values[k]);
+          blocks[bond.columns[k]] += bond.block_of(k, k, stiffness, tension);
       });
     return rows.sum_to_owners(blocks);
   }
@@ -202,15 +255,11 @@ namespace perideal
     visit_rows(
       rows,
       [&](const LocalIndex i, const Row<dim> &row) {
-        const double volume  = moments->cell_polynomials().volumes()[i];
-        const auto   inverse = inverse_moment_of(i);
-        hand_out(row.column, [&](const std::size_t k, const std::size_t m) {
-          return block_of<dim>(row, k, m, volume, inverse, stiffness_of(i));
-        });
+        visit_blocks(i, row, [&](const auto &block) { hand_out(row.column, block); });
       },
-      [&](const double b, const BondRow<dim> &bond) {
+      [&](const double stiffness, const double tension, const BondRow<dim> &bond) {
         hand_out(bond.columns, [&](const std::size_t k, const std::size_t m) {
-          return b * outer_product(bond.values[k], bond.values[m]);
+          return bond.block_of(k, m, stiffness, tension);
         });
       });
   }

@@ -74,8 +74,9 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceTangent<dim>::sum_forces(NodalVector &force) const
+  void CorrespondenceTangent<dim>::vmult(NodalVector &force, const NodalVector &displacement) const
   {
+    rows->read(displacement);
     constexpr int n = dim * dim;
     rows->forces(force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
       const Moduli          &A = moduli[moduli_of[i]];
@@ -89,31 +90,6 @@ namespace perideal
         }
       return result;
     });
-  }
-
-  template <int dim>
-  void CorrespondenceTangent<dim>::vmult(NodalVector &force, const NodalVector &displacement) const
-  {
-    rows->read(displacement, CorrespondenceRows<dim>::AtFaces::nothing);
-    sum_forces(force);
-  }
-
-  template <int dim>
-  void CorrespondenceTangent<dim>::internal_force(NodalVector &force, const NodalVector &displacement) const
-  {
-    rows->read(displacement, CorrespondenceRows<dim>::AtFaces::values);
-    sum_forces(force);
-  }
-
-  template <int dim>
-  void CorrespondenceTangent<dim>::add_increments(NodalVector &force) const
-  {
-    NodalVector still, from_faces;
-    this->initialize(still);
-    this->initialize(from_faces);
-    rows->read(still, CorrespondenceRows<dim>::AtFaces::increments);
-    sum_forces(from_faces);
-    force += from_faces;
   }
 
   template <int dim>

@@ -14,36 +14,14 @@ namespace perideal
   template <int dim>
   typename CorrespondenceRows<dim>::DenseRow CorrespondenceRows<dim>::dense_row(const LocalIndex i) const
   {
-    // The columns of the gradient, then those members that are not among them.
     DenseRow row;
-    if (by_faces())
-      {
-        const auto &rows     = gradient->rows();
-        const auto  boundary = boundary_rows.find(i);
-        for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
-          {
-            row.column.push_back(of_faces.column[k]);
-            dealii::Tensor<2, dim> c;
-            for (int a = 0; a < dim; ++a)
-              c[a] = rows.value[k];
-            row.c.push_back(boundary == boundary_rows.end() ? c : boundary->second.c[k - rows.first[i]]);
-          }
-        for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
-          if (std::find(row.column.begin(), row.column.end(), of_family.member[k]) == row.column.end())
-            row.column.push_back(of_family.member[k]);
-        row.c.resize(row.column.size());
-        return row;
-      }
     row.column.push_back(i);
     row.c.resize(1 + of_family.first[i + 1] - of_family.first[i]);
     for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
       {
         row.column.push_back(of_family.member[k]);
-        for (int a = 0; a < dim; ++a)
-          {
-            row.c[row.column.size() - 1][a] = of_family.c[k];
-            row.c[0][a] -= of_family.c[k];
-          }
+        row.c[row.column.size() - 1] = of_family.c[k];
+        row.c[0] -= of_family.c[k];
       }
     return row;
   }
@@ -52,16 +30,16 @@ namespace perideal
   {
     /// c_k A c_l of two columns.
     template <int dim>
-    dealii::Tensor<2, dim> between(const dealii::Tensor<2, dim> &c_k,
+    dealii::Tensor<2, dim> between(const dealii::Tensor<1, dim> &c_k,
                                    const dealii::Tensor<4, dim> &A,
-                                   const dealii::Tensor<2, dim> &c_l)
+                                   const dealii::Tensor<1, dim> &c_l)
     {
       dealii::Tensor<2, dim> result;
       for (int a = 0; a < dim; ++a)
         for (int c = 0; c < dim; ++c)
           for (int B = 0; B < dim; ++B)
             for (int D = 0; D < dim; ++D)
-              result[a][c] += c_k[a][B] * A[a][B][c][D] * c_l[c][D];
+              result[a][c] += c_k[B] * A[a][B][c][D] * c_l[D];
       return result;
     }
   } // namespace
@@ -115,7 +93,7 @@ namespace perideal
                   }
               }
             for (int a = 0; a < dim; ++a)
-              block[a][a] += own + 2. * (mixed * row.c[k][a]) + row.c[k][a] * (second_moment * row.c[k][a]);
+              block[a][a] += own + 2. * (mixed * row.c[k]) + row.c[k] * (second_moment * row.c[k]);
             for (int a = 0; a < dim; ++a)
               for (int c = 0; c < dim; ++c)
                 columns[c].local_element(place(j) + a) += block[a][c];
@@ -147,7 +125,7 @@ namespace perideal
         unknowns.clear();
         for (const LocalIndex j : row.column)
           for (int a = 0; a < dim; ++a)
-            unknowns.push_back(dim * global_number(j) + a);
+            unknowns.push_back(dim * families->global_number(j) + a);
         values.assign(dim * n * dim * n, 0.);
         const auto entry =
           [&](const std::size_t k, const int a, const std::size_t l, const int c) -> double & {
@@ -170,7 +148,7 @@ namespace perideal
               {
                 std::vector<double> r(n);
                 for (std::size_t k = 0; k < n; ++k)
-                  r[k] = -(row.c[k][a] * bond);
+                  r[k] = -(row.c[k] * bond);
                 r[far] += 1.;
                 r[self] -= 1.;
                 for (std::size_t k = 0; k < n; ++k)

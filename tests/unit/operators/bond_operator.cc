@@ -59,7 +59,7 @@ namespace
         return ElasticSolid<dim>(own);
       };
       if (parameters.is_consistent())
-        bonds = std::make_shared<ConsistentOperator<dim>>(
+        bonds = test::make_consistent_operator<dim>(
           body.families,
           test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>()),
           create_consistent<dim>(parameters, 3.01),

@@ -7,6 +7,7 @@
 #include <perideal/treatments/treatments.h>
 
 #include "bodies.h"
+#include "moments.h"
 #include "solids.h"
 #include "testing.h"
 
@@ -37,8 +38,8 @@ namespace
       moments =
         std::make_shared<const GradientMoments<dim>>(polynomials, face_moments, values, MPI_COMM_WORLD);
       tractions = load_by_face_value<dim>({mesh, body.nodes, faces, loads, text, timings},
-                                          {body.families, nullptr, moments, solid_of});
-      bonds     = std::make_shared<ConsistentOperator<dim>>(
+                                          {body.families, moments, solid_of});
+      bonds     = test::make_consistent_operator<dim>(
         body.families, moments, create_consistent<dim>(parameters, horizon_factor), solid_of);
       for (NodalVector *vector : {&displacement, &force, &external})
         bonds->initialize(*vector);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/materials/models.h>
+#include <perideal/operators/force/consistent_force.h>
+#include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
 
 #include <deal.II/base/mpi.h>
@@ -50,31 +52,39 @@ namespace
             text.conditions.back().displacement[d] = test::formula(H, d);
         }
       const Loads<dim> loads = resolve_boundaries(mesh, Loads<dim>(text));
+      const auto solid_of = [solid](const dealii::types::material_id) { return solid; };
       if (form == "consistent")
         {
-          gradient =
-            std::make_shared<const FaceGradient<dim>>(mesh, body.nodes, [](const auto) { return 1.; });
-          face_values = std::make_shared<FaceValues<dim>>(gradient->boundary_points(), loads);
+          const auto polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, body.nodes);
+          const auto faces =
+            std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; });
+          face_values = std::make_shared<FaceValues<dim>>(faces->boundary_points(), loads);
           face_values->set_time(loads, 1.);
+          moments =
+            std::make_shared<const GradientMoments<dim>>(polynomials, faces, face_values, MPI_COMM_WORLD);
+          const auto bonds = std::make_shared<ConsistentBonds<dim>>(
+            body.families, *polynomials, create_consistent<dim>(parameters, 2.015), solid_of);
+          force   = std::make_unique<ConsistentForce<dim>>(body.families, moments, bonds, laws);
+          tangent = std::make_unique<ConsistentOperator<dim>>(body.families, moments, bonds, solid_of);
         }
-      rows = std::make_shared<CorrespondenceRows<dim>>(
-        body.families,
-        gradient,
-        face_values,
-        create_correspondence<dim>(parameters),
-        [solid](const dealii::types::material_id) { return solid; });
-      force   = std::make_unique<CorrespondenceForce<dim>>(body.families, rows, laws);
-      tangent = std::make_unique<CorrespondenceTangent<dim>>(body.families, rows, laws);
+      else
+        {
+          const auto rows = std::make_shared<CorrespondenceRows<dim>>(
+            body.families, create_correspondence<dim>(parameters), solid_of);
+          force   = std::make_unique<CorrespondenceForce<dim>>(body.families, rows, laws);
+          tangent = std::make_unique<CorrespondenceTangent<dim>>(body.families, rows, laws);
+        }
       for (NodalVector *vector : {&displacement, &result, &other})
         tangent->initialize(*vector);
     }
 
-    /// u = H x at the nodes, as it is at prescribed faces.
+    /// u = H x, at the nodes or of means over cells, as it is at prescribed faces.
     void displace()
     {
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
         for (int d = 0; d < dim; ++d)
-          displacement.local_element(dim * i + d) = (H * body.nodes.position[i])[d];
+          displacement.local_element(dim * i + d) =
+            (H * (moments ? moments->cell_polynomials().centroids()[i] : body.nodes.position[i]))[d];
     }
 
     /// Adds a field without pattern, of a share of the spacing.
@@ -95,14 +105,16 @@ namespace
       return field;
     }
 
+    /// The force of form "family".
+    CorrespondenceForce<dim> &of_family() { return dynamic_cast<CorrespondenceForce<dim> &>(*force); }
+
     const Gradient                              H;
     test::Body<dim>                             body;
-    std::shared_ptr<const FaceGradient<dim>>    gradient;
+    std::shared_ptr<const GradientMoments<dim>> moments;
     LawsByMaterial<dim>                         laws;
     std::shared_ptr<FaceValues<dim>>            face_values;
-    std::shared_ptr<CorrespondenceRows<dim>>    rows;
-    std::unique_ptr<CorrespondenceForce<dim>>   force;
-    std::unique_ptr<CorrespondenceTangent<dim>> tangent;
+    std::unique_ptr<BondForce<dim>>             force;
+    std::unique_ptr<TangentOperator<dim>>       tangent;
     NodalVector                                 displacement, result, other;
   };
 
@@ -234,7 +246,7 @@ namespace
           const auto forces = b.force->support_forces();
           for (std::size_t e = 0; e < forces.size(); ++e)
             {
-              const auto &point = b.gradient->boundary_points()[b.face_values->entries()[e].point];
+              const auto &point = b.moments->faces().boundary_points()[b.face_values->entries()[e].point];
               EXPECT_LT((forces[e] - stress * point.area).norm(), 1e-12 * point.area.norm());
             }
         }
@@ -313,7 +325,7 @@ TEST(Correspondence, BondsBreakByTheMeanStressOfTheirEnds)
   const auto   crosses  = [&](const LocalIndex i, const LocalIndex j) {
     return (position[i][0] - 0.5) * (position[j][0] - 0.5) < 0;
   };
-  b.force->set_strength([&](const auto, const auto &s) { return s[0][0] / strength; }, crosses);
+  b.of_family().set_strength([&](const auto, const auto &s) { return s[0][0] / strength; }, crosses);
   b.force->judge_bonds(false);
   b.force->compute(b.result, b.displacement);
   const double before = b.force->strain_energy();
@@ -331,7 +343,7 @@ TEST(Correspondence, BondsBreakByTheMeanStressOfTheirEnds)
     b.displacement.local_element(2 * i + 1) = 0.;
   b.force->compute(b.result, b.displacement);
   EXPECT_LT(b.result.linfty_norm(), 1e-15);
-  EXPECT_EQ(b.force->n_without_gradient(), 0u);
+  EXPECT_EQ(b.of_family().n_without_gradient(), 0u);
 }
 
 TEST(Correspondence, NodesThatHangByALineOfBondsBearNoStress)
@@ -346,8 +358,8 @@ TEST(Correspondence, NodesThatHangByALineOfBondsBearNoStress)
   });
   b.displace();
   b.force->compute(b.result, b.displacement);
-  EXPECT_EQ(b.force->n_without_gradient(), 1u);
-  const auto gradients = b.force->gradients();
+  EXPECT_EQ(b.of_family().n_without_gradient(), 1u);
+  const auto gradients = b.of_family().gradients();
   for (LocalIndex i = 0; i < gradients.size(); ++i)
     EXPECT_NEAR((gradients[i] -
                  (position[i].distance(hanging) < 1e-9 ? dealii::Tensor<2, 2>() : stretch_and_shear<2>()))

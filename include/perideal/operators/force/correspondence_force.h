@@ -3,8 +3,8 @@
 #define perideal_operators_force_correspondence_force_h
 
 #include <perideal/operators/force/breaking_bonds.h>
+#include <perideal/operators/force/continuum_force.h>
 #include <perideal/operators/weights/correspondence_rows.h>
-#include <perideal/parameters/hyperelastic_law.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -25,7 +25,7 @@ namespace perideal
    * body.
    */
   template <int dim>
-  class CorrespondenceForce : public BreakingBonds<dim>
+  class CorrespondenceForce : public BreakingBonds<dim>, public ContinuumForce<dim>
   {
   public:
     CorrespondenceForce(const std::shared_ptr<const Families<dim>>     &families,
@@ -60,14 +60,8 @@ namespace perideal
       AssertThrow(false, dealii::ExcNotImplemented());
     }
 
-    std::vector<dealii::Tensor<1, dim>> support_forces() const override { return support; }
-
-    /// The gradient G u of owned nodes at the last compute() [-].
-    std::vector<dealii::Tensor<2, dim>> gradients() const;
-    /// Cauchy stresses of owned nodes at the last compute() [Pa].
-    std::vector<dealii::SymmetricTensor<2, 3>> cauchy_stresses() const;
-
-    const HyperelasticLaw<dim> &law(const LocalIndex i) const { return *law_of_node[i]; }
+    std::vector<dealii::Tensor<2, dim>> gradients() const override;
+    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return *law_of_node[i]; }
 
     /// Nodes of all ranks whose bonds span no space any more. Collective.
     GlobalIndex n_without_gradient() const;
@@ -96,9 +90,8 @@ namespace perideal
     /// Owned nodes whose families lost bonds.
     std::vector<LocalIndex> changed;
 
-    NodalVector                         last;
-    std::vector<dealii::Tensor<1, dim>> support;
-    double                              released = 0;
+    NodalVector last;
+    double      released = 0;
   };
 } // namespace perideal
 

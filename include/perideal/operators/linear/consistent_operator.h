@@ -3,22 +3,22 @@
 #define perideal_operators_linear_consistent_operator_h
 
 #include <perideal/base/symmetric_pairs.h>
-#include <perideal/materials/consistent.h>
-#include <perideal/neighbourhood/bond_list.h>
-#include <perideal/operators/linear/bond_operator.h>
+#include <perideal/operators/linear/deformed_cells.h>
+#include <perideal/operators/linear/tangent_operator.h>
+#include <perideal/operators/weights/consistent_bonds.h>
 #include <perideal/operators/weights/gradient_moments.h>
 #include <perideal/operators/weights/gradient_rows.h>
 
-#include <deal.II/base/aligned_vector.h>
-
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace perideal
 {
   /**
-   * Applies the internal force of the consistent form (materials/consistent.h), the derivative of
+   * Applies the internal force of the consistent form (materials/consistent.h) at small strain, the
+   * derivative of
    *
    *     U = sum_i V_i W(eps_i) + 1/2 sum_i (M_i^-1)_km eps(H_ik) : C : eps(H_im) + 1/2 sum_bonds b_ij r_ij^2,
    *     eps_i = sym G_i u,   r_ij = xi.(p_j - p_i) - 1/2 xi.(eps_i + eps_j) xi,
@@ -27,26 +27,33 @@ namespace perideal
    * mean of the strain in a cell and its linear part store what they do in the material, exactly; a bond what
    * neither explains, which is nothing in quadratic fields.
    *
+   * Of laws at finite strain that is the body at rest; linearise() makes it the tangent of ConsistentForce
+   * in a deformed state.
+   *
    * Symmetric tensors are vectors of pairs (symmetric_pairs.h).
    */
   template <int dim>
-  class ConsistentOperator : public BondOperator<dim>
+  class ConsistentOperator : public TangentOperator<dim>
   {
   public:
     /// @param solid_of by material id; every material of the nodes is listed. Collective.
     ConsistentOperator(const std::shared_ptr<const Families<dim>>        &families,
                        const std::shared_ptr<const GradientMoments<dim>> &moments,
-                       const Consistent<dim>                             &model,
+                       const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
                        const SolidOf<dim>                                &solid_of);
+
+    /// @param force a ConsistentForce of the same moments and bonds
+    void linearise(const BondForce<dim> &force) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
+    void add_increments(NodalVector &force) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
     std::size_t memory_consumption() const override;
 
-    /// Trace of the mean strain of the last vmult() or internal_force(), by owned node.
+    /// Trace of the mean strain of the last vmult() or internal_force() of the body at rest, by owned node.
     std::vector<double> dilatation() const override;
 
     /// Forces that the supports exert on the body at the prescribed face values
@@ -57,28 +64,28 @@ namespace perideal
     using Symmetric                       = SymmetricPairs<dim>;
     using Pairs                           = typename Symmetric::Pairs;
     static constexpr unsigned int n_pairs = Symmetric::n_pairs;
-    static constexpr unsigned int n_parts = Symmetric::n_parts;
-    /// Value at the centroid and strain, lanes as in a PairRecord.
-    static constexpr unsigned int n_records = 1 + n_parts;
 
     void set_solids(const SolidOf<dim> &solid_of);
     void set_moments();
-    void weigh_bonds(const SolidOf<dim> &solid_of);
 
     void apply(NodalVector                                 &force,
                const NodalVector                           &displacement,
                const typename GradientMoments<dim>::AtFaces at_faces) const;
-    void import_states() const;
     void sum_over_bonds() const;
     void turn_into_stress() const;
 
     /// Rows of the gradients, with those of the ghosts that bonds reach. Collective.
     GradientRows<dim> make_rows() const;
-    /// Calls visit_cell(i, row) for owned cells and visit_bond(b, dr/du) for the bonds of this rank, each
-    /// once.
+    /// Calls visit_cell(i, row) for owned cells and visit_bond(b, tension, row of the bond) for the bonds of
+    /// this rank, each once.
     template <typename VisitCell, typename VisitBond>
     void
     visit_rows(const GradientRows<dim> &rows, const VisitCell &visit_cell, const VisitBond &visit_bond) const;
+    /// Calls visit(block) where block(k, m) are the blocks of the columns of a cell's row.
+    template <typename Visit>
+    void
+    visit_blocks(const LocalIndex i, const typename GradientRows<dim>::Row &row, const Visit &visit) const;
+
     dealii::SymmetricTensor<2, dim>        inverse_moment_of(const LocalIndex i) const;
     const dealii::SymmetricTensor<4, dim> &stiffness_of(const LocalIndex i) const
     {
@@ -87,8 +94,7 @@ namespace perideal
 
     std::shared_ptr<const Families<dim>>        families;
     std::shared_ptr<const GradientMoments<dim>> moments;
-    Consistent<dim>                             model;
-    BondList                                    bonds;
+    std::shared_ptr<ConsistentBonds<dim>>       bonds;
 
     /// C as a matrix on strain pairs [Pa], by number and by owned node of it.
     std::vector<std::array<Pairs, n_pairs>>      solids;
@@ -96,18 +102,10 @@ namespace perideal
     std::vector<LocalIndex>                      solid_of_node;
     /// Inverse of int (x - x_i) (x) (x - x_i) [1/m^5], by owned node.
     std::vector<Pairs> inverse_moment;
-    /// b_ij of both families, by slot [N/m^3].
-    std::vector<double>               stiffness;
-    dealii::AlignedVector<NodeRecord> positions;
 
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_states;
-    /// Work space of vmult().
-    struct Work
-    {
-      dealii::AlignedVector<NodeRecord> states, forces, stresses;
-      std::vector<double>               dilatation, temporary;
-    };
-    mutable Work work;
+    /// Once something was linearised.
+    std::optional<DeformedCells<dim>> deformed;
+    mutable std::vector<double>       dilatations;
   };
 } // namespace perideal
 

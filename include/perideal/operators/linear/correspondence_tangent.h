@@ -28,23 +28,19 @@ namespace perideal
     void linearise(const BondForce<dim> &force) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    void internal_force(NodalVector &force, const NodalVector &displacement) const override;
-    void add_increments(NodalVector &force) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
     std::size_t memory_consumption() const override;
 
-    /// Trace of the gradient of the last vmult() or internal_force(), by owned node.
-    std::vector<double>                 dilatation() const override;
-    std::vector<dealii::Tensor<1, dim>> support_forces() const override { return rows->support_forces(); }
+    /// Trace of the gradient of the last vmult(), by owned node.
+    std::vector<double> dilatation() const override;
 
   private:
     using Moduli = std::array<double, dim * dim * dim * dim>;
 
     static Moduli          flat(const dealii::Tensor<4, dim> &tangent);
     dealii::Tensor<4, dim> tangent_of(const LocalIndex i) const;
-    void                   sum_forces(NodalVector &force) const;
 
     std::shared_ptr<const CorrespondenceRows<dim>> rows;
     /// dP/dF [Pa]: by material where laws are linear or the body at rest, else by node.

@@ -3,11 +3,9 @@
 #define perideal_operators_weights_correspondence_rows_h
 
 #include <perideal/base/lanes.h>
-#include <perideal/boundary/face_values.h>
 #include <perideal/materials/correspondence.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/operators/weights/add_block.h>
-#include <perideal/reconstruction/face_gradient.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
@@ -23,13 +21,11 @@ namespace perideal
    * Evaluates the energy of the correspondence model (materials/correspondence.h) by rows: what node i needs
    * of its neighbours for G_i u and z_ij, and the forces on them,
    *
-   *     dU/du_k = sum_i [ (V_i P_i - sum_j b_ij z_ij (x) xi_ij) c_ik ] + bonds b_ij z_ij.
+   *     dU/du_k = sum_i V_i P_i c_ik + bonds b_ij z_ij.
    *
    * Every node is visited once, with all of its family: gradient, stress, forces. What stands for P is the
    * caller's: the stress of a law, or a tangent on a gradient. What a rank finds for other ranks' nodes is
    * sent to them, instead of the stresses of those nodes to it.
-   *
-   * Local numbers are those of the families, behind them the ghosts that only the face gradient knows.
    */
   template <int dim>
   class CorrespondenceRows
@@ -37,16 +33,12 @@ namespace perideal
   public:
     using Gradient = dealii::Tensor<2, dim>;
 
-    /// @param gradient of the faces; null: that of the family
-    /// @param prescribed values at faces; null with the family's gradient. Collective.
-    CorrespondenceRows(const std::shared_ptr<const Families<dim>>     &families,
-                       const std::shared_ptr<const FaceGradient<dim>> &gradient,
-                       const std::shared_ptr<const FaceValues<dim>>   &prescribed,
-                       const Correspondence<dim>                      &model,
-                       const SolidOf<dim>                             &solid_of);
+    /// @param solid_of by material id; every material of the nodes is listed. Collective.
+    CorrespondenceRows(const std::shared_ptr<const Families<dim>> &families,
+                       const Correspondence<dim>                  &model,
+                       const SolidOf<dim>                         &solid_of);
 
     LocalIndex n_owned() const { return families->n_owned(); }
-    bool       by_faces() const { return gradient != nullptr; }
 
     /// Weighs the families of owned nodes anew.
     /// @param is_gone of bonds between an owned node and another local one
@@ -56,23 +48,14 @@ namespace perideal
     /// Whether the bonds of an owned node span space.
     bool has_gradient(const LocalIndex i) const { return of_family.spans_space[i]; }
 
-    /// Which prescribed values at faces count: none, those that they have, or what they have still to move.
-    enum class AtFaces
-    {
-      nothing,
-      values,
-      increments
-    };
-
     /// Takes the displacement that the functions below work on. Collective.
-    void read(const NodalVector &displacement, const AtFaces at_faces) const;
+    void read(const NodalVector &displacement) const;
 
     /// Calls visit(i, G_i u) for the owned nodes.
     template <typename Visit>
     void visit_gradients(const Visit &visit) const
     {
-      for_all_nodes(
-        [&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *) { visit(i, to_tensor(g)); });
+      for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim]) { visit(i, to_tensor(g)); });
     }
 
     /// dU/du [N] of owned nodes. Collective.
@@ -83,10 +66,6 @@ namespace perideal
     /// Energy of the penalty of a node's family [J], at the displacement read and its gradient.
     double penalty_energy(const LocalIndex i, const Gradient &g) const;
 
-    /// Forces that the supports exert on the body at the prescribed face values [N], by entry, of the last
-    /// forces().
-    const std::vector<dealii::Tensor<1, dim>> &support_forces() const { return work.support; }
-
     /// Of the Hessian of U with dP/dF given by node [Pa]: blocks on the diagonal, and pieces as of
     /// BondOperator. Collective.
     using TangentOf = std::function<dealii::Tensor<4, dim>(const LocalIndex)>;
@@ -96,16 +75,6 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
-    /// What a node at prescribed face values has in the place of its row: c by component.
-    struct BoundaryRow
-    {
-      std::vector<dealii::Tensor<2, dim>> c;
-      std::size_t                         first_entry, last_entry;
-    };
-    using BoundaryRows = std::map<LocalIndex, BoundaryRow>;
-
-    void number_face_ghosts();
-    void make_boundary_rows();
     void weigh(const LocalIndex i, const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone);
 
     static Gradient to_tensor(const Lanes (&g)[dim])
@@ -117,35 +86,22 @@ namespace perideal
       return result;
     }
 
-    /// Value of a prescribed component as read() wants it.
-    double at_face(const std::size_t entry, const int component) const;
-
     template <typename Visit>
     void for_all_nodes(const Visit &visit) const;
     template <typename StressOf>
     void sum_forces(const StressOf &stress_of) const;
-    /// The gradient of a node at prescribed faces, by column.
-    void add_at_faces(const BoundaryRow &row, const LocalIndex i, Lanes (&g)[dim]) const;
-    /// Its forces, t being its stress times its volume by column.
-    void pull_at_faces(const BoundaryRow &row, const LocalIndex i, const Lanes (&t)[dim]) const;
     void collect(NodalVector &force) const;
 
-    /// The row of a node: c by component.
+    /// The row of a node, itself first.
     struct DenseRow
     {
       std::vector<LocalIndex>             column;
-      std::vector<dealii::Tensor<2, dim>> c;
+      std::vector<dealii::Tensor<1, dim>> c;
     };
-    DenseRow    dense_row(const LocalIndex i) const;
-    GlobalIndex global_number(const LocalIndex k) const
-    {
-      return k < families->n_local() ? families->global_number(k) : of_faces.ghost[k - families->n_local()];
-    }
+    DenseRow dense_row(const LocalIndex i) const;
 
-    std::shared_ptr<const Families<dim>>     families;
-    std::shared_ptr<const FaceGradient<dim>> gradient;
-    std::shared_ptr<const FaceValues<dim>>   prescribed;
-    Correspondence<dim>                      model;
+    std::shared_ptr<const Families<dim>> families;
+    Correspondence<dim>                  model;
     /// By material [Pa].
     std::map<dealii::types::material_id, double> penalty_modulus;
 
@@ -160,15 +116,6 @@ namespace perideal
     };
     Members of_family;
 
-    /// Columns of the face gradient in the numbers of here, and the ghosts that only it knows.
-    struct FaceNumbers
-    {
-      std::vector<LocalIndex>  column;
-      std::vector<GlobalIndex> ghost;
-    };
-    FaceNumbers  of_faces;
-    BoundaryRows boundary_rows;
-
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<LocalIndex>                                    ghost_number;
     dealii::AlignedVector<NodeRecord>                          positions;
@@ -176,10 +123,8 @@ namespace perideal
     /// What read() leaves, and forces().
     struct Work
     {
-      dealii::AlignedVector<NodeRecord>   displacements, forces;
-      NodalVector                         ghosted, ghosted_forces;
-      AtFaces                             reading = AtFaces::nothing;
-      std::vector<dealii::Tensor<1, dim>> support;
+      dealii::AlignedVector<NodeRecord> displacements, forces;
+      NodalVector                       ghosted, ghosted_forces;
     };
     mutable Work work;
   };
@@ -188,34 +133,18 @@ namespace perideal
   template <typename Visit>
   void CorrespondenceRows<dim>::for_all_nodes(const Visit &visit) const
   {
-    const NodeRecord *u    = work.displacements.data();
-    auto              next = boundary_rows.begin();
+    const NodeRecord *u = work.displacements.data();
     for (LocalIndex i = 0; i < n_owned(); ++i)
       {
-        Lanes              g[dim]   = {};
-        const BoundaryRow *boundary = nullptr;
-        if (next != boundary_rows.end() && next->first == i)
-          boundary = &(next++)->second;
-        if (boundary != nullptr)
-          add_at_faces(*boundary, i, g);
-        else if (by_faces())
+        Lanes       g[dim] = {};
+        const Lanes ui     = lanes(u[i]);
+        for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
           {
-            const auto &rows = gradient->rows();
-            for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
-              for (int b = 0; b < dim; ++b)
-                g[b] += lanes(u[of_faces.column[k]]) * rows.value[k][b];
+            const Lanes difference = lanes(u[of_family.member[k]]) - ui;
+            for (int b = 0; b < dim; ++b)
+              g[b] += difference * of_family.c[k][b];
           }
-        else
-          {
-            const Lanes ui = lanes(u[i]);
-            for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
-              {
-                const Lanes difference = lanes(u[of_family.member[k]]) - ui;
-                for (int b = 0; b < dim; ++b)
-                  g[b] += difference * of_family.c[k][b];
-              }
-          }
-        visit(i, g, boundary);
+        visit(i, g);
       }
   }
 
@@ -226,8 +155,8 @@ namespace perideal
     const NodeRecord *u = work.displacements.data(), *x = positions.data();
     NodeRecord       *f = work.forces.data();
     std::fill(work.forces.begin(), work.forces.end(), NodeRecord{});
-    const bool stabilised = model.is_stabilised(), faces = by_faces(), has_bonds = stabilised || !faces;
-    for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim], const BoundaryRow *boundary) {
+    const bool stabilised = model.is_stabilised();
+    for_all_nodes([&](const LocalIndex i, const Lanes(&g)[dim]) {
       const Gradient stress = families->volume[i] * stress_of(i, to_tensor(g));
       Lanes          t[dim] = {};
       for (int a = 0; a < dim; ++a)
@@ -235,7 +164,7 @@ namespace perideal
           t[b][a] = stress[a][b];
       const Lanes ui = lanes(u[i]), xi = lanes(x[i]);
       Lanes       own = {};
-      for (BondIndex k = of_family.first[i]; has_bonds && k < of_family.first[i + 1]; ++k)
+      for (BondIndex k = of_family.first[i]; k < of_family.first[i + 1]; ++k)
         {
           const LocalIndex j    = of_family.member[k];
           Lanes            pull = {};
@@ -246,28 +175,13 @@ namespace perideal
               for (int b = 0; b < dim; ++b)
                 z -= g[b] * bond[b];
               pull = z * of_family.penalty[k];
-              if (faces)
-                for (int b = 0; b < dim; ++b)
-                  t[b] -= pull * bond[b];
             }
-          if (!faces)
-            for (int b = 0; b < dim; ++b)
-              pull += t[b] * of_family.c[k][b];
+          for (int b = 0; b < dim; ++b)
+            pull += t[b] * of_family.c[k][b];
           lanes(f[j]) += pull;
           own -= pull;
         }
       lanes(f[i]) += own;
-      if (!faces)
-        return;
-      if (boundary != nullptr)
-        {
-          pull_at_faces(*boundary, i, t);
-          return;
-        }
-      const auto &rows = gradient->rows();
-      for (BondIndex k = rows.first[i]; k < rows.first[i + 1]; ++k)
-        for (int b = 0; b < dim; ++b)
-          lanes(f[of_faces.column[k]]) += t[b] * rows.value[k][b];
     });
   }
 

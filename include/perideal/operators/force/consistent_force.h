@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_consistent_force_h
+#define perideal_operators_force_consistent_force_h
+
+#include <perideal/operators/force/breaking_bonds.h>
+#include <perideal/operators/force/continuum_force.h>
+#include <perideal/operators/weights/cell_points.h>
+#include <perideal/operators/weights/consistent_bonds.h>
+#include <perideal/operators/weights/gradient_moments.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Computes the force of the consistent form (materials/consistent.h) at finite strain, - dU/du of
+   *
+   *     U = sum_i V_i/(2 dim) sum_p W(I + G_p) + 1/2 sum_bonds b_ij r_ij^2,
+   *
+   * with the law W at the points of each cell (CellPoints) and bonds between the values at the centroids
+   * (ConsistentBonds). Uniform deformations leave the bonds at rest, rotations the whole. Of laws that are
+   * linear, strains are small, and the force is that of ConsistentOperator.
+   *
+   * Nothing breaks: no crack crosses a face.
+   */
+  template <int dim>
+  class ConsistentForce
+    : public BreakingBonds<dim>
+    , public ContinuumForce<dim>
+  {
+  public:
+    /// @param laws by material id; every material of the nodes is listed
+    ConsistentForce(const std::shared_ptr<const Families<dim>>        &families,
+                    const std::shared_ptr<const GradientMoments<dim>> &moments,
+                    const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
+                    const LawsByMaterial<dim>                         &laws);
+
+    /// Not for this form: nothing breaks.
+    void reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &,
+                                const typename BondForce<dim>::Reweigh &) override
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
+    /// Not for this form: forces are not those of bonds.
+    void visit_bond_forces(const typename BondForce<dim>::VisitBond &) const override
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
+
+    void                                compute(NodalVector &force, const NodalVector &displacement) override;
+    double                              strain_energy() const override;
+    double                              released_energy(const NodalVector &, const double) const override { return 0.; }
+    std::vector<double>                 dilatation() const override;
+    std::vector<dealii::Tensor<1, dim>> support_forces() const override { return support; }
+    std::size_t                         memory_consumption() const override;
+
+    std::vector<dealii::Tensor<2, dim>> gradients() const override;
+    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return *law_of_node[i]; }
+
+    /// Brings gradients, moments and bonds to the last compute() again; others may have used them since.
+    /// Collective.
+    void evaluate() const;
+
+    /// Whether laws are linear and strains small.
+    bool is_linear() const { return has_small_strain; }
+
+    const std::shared_ptr<const CellPoints<dim>> &cell_points() const { return points; }
+
+  private:
+    using BreakingBonds<dim>::families;
+
+    bool carries_force(const BondIndex slot) const override { return bonds->stiffness(slot) > 0; }
+    void clear_weights(const BondIndex) override { AssertThrow(false, dealii::ExcNotImplemented()); }
+
+    /// Green's strain of a gradient in pairs, or the small one.
+    typename SymmetricPairs<dim>::Pairs strain_of(const dealii::Tensor<2, dim> &gradient) const;
+    /// Puts the stress of a cell, and what its bonds do besides, in the places of gradient and moment.
+    void turn_into_stress(const LocalIndex i) const;
+
+    std::shared_ptr<const GradientMoments<dim>> moments;
+    std::shared_ptr<ConsistentBonds<dim>>       bonds;
+    std::shared_ptr<const CellPoints<dim>>      points;
+    LawsByMaterial<dim>                         laws;
+    std::vector<const HyperelasticLaw<dim> *>   law_of_node;
+    bool                                        has_small_strain;
+    NodalVector                                 last;
+    std::vector<dealii::Tensor<1, dim>>         support;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_linear_deformed_cells_h
+#define perideal_operators_linear_deformed_cells_h
+
+#include <perideal/operators/force/consistent_force.h>
+#include <perideal/operators/weights/gradient_rows.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Computes how the forces of cells change about a deformed state of the consistent form: the second
+   * derivatives of the energy of ConsistentForce. With dP/dF at the points of a cell, its gradient F = I + G,
+   * and S the derivative of the bonds' energy with respect to its Green's strain,
+   *
+   *     dE = sym(F^T dG),   d(dU/dG) = sum_p V_p dP_p + F dS + dG S.
+   */
+  template <int dim>
+  class DeformedCells
+  {
+  public:
+    using Row = typename GradientRows<dim>::Row;
+
+    /// The state of the last compute() of the force. Collective.
+    DeformedCells(const Families<dim>                               &families,
+                  const std::shared_ptr<const GradientMoments<dim>> &moments,
+                  const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
+                  const ConsistentForce<dim>                        &force);
+
+    /// Sets the states of bonds to the changes read, and sums over the bonds. Collective.
+    void sum_over_bonds() const;
+
+    /// Puts the change of what acts on gradients, moments and values in their places.
+    void turn_into_stress() const;
+
+    /// The block of two columns of a cell's row.
+    dealii::Tensor<2, dim>
+    block_of(const LocalIndex i, const Row &row, const std::size_t k, const std::size_t m) const;
+
+    /// The bond of an owned node with another local one in the deformed body [m].
+    dealii::Tensor<1, dim> bond(const LocalIndex i, const LocalIndex j) const;
+    /// F of a local node.
+    dealii::Tensor<2, dim> deformation(const LocalIndex i) const
+    {
+      return to_tensor<dim>(deformations.data() + dim * i);
+    }
+    /// b_ij r_ij of a bond [N/m].
+    double tension(const BondIndex slot) const { return of_bonds.tension[slot]; }
+
+    std::size_t memory_consumption() const;
+
+  private:
+    /// dP/dF as a symmetric matrix, its lower triangle by rows [Pa].
+    static constexpr unsigned int n_entries = dim * dim;
+    using Moduli                            = std::array<double, n_entries *(n_entries + 1) / 2>;
+
+    static Moduli                 pack(const dealii::Tensor<4, dim> &tangent);
+    static dealii::Tensor<2, dim> multiply(const Moduli &moduli, const dealii::Tensor<2, dim> &gradient);
+
+    std::shared_ptr<const GradientMoments<dim>>    moments;
+    std::shared_ptr<ConsistentBonds<dim>>          bonds;
+    std::shared_ptr<const CellPoints<dim>>         points;
+    typename ConsistentBonds<dim>::Linearisation   of_bonds;
+    dealii::AlignedVector<NodeRecord>              deformations;
+    std::vector<dealii::SymmetricTensor<2, dim>>   bond_stress;
+    std::vector<std::array<Moduli, CellPoints<dim>::n>> moduli;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/operators/force/consistent_force.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  template <int dim>
+  ConsistentForce<dim>::ConsistentForce(const std::shared_ptr<const Families<dim>>        &families,
+                                        const std::shared_ptr<const GradientMoments<dim>> &moments,
+                                        const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
+                                        const LawsByMaterial<dim>                         &laws)
+    : BreakingBonds<dim>(families, bonds->list(), false)
+    , moments(moments)
+    , bonds(bonds)
+    , points(std::make_shared<const CellPoints<dim>>(moments->cell_polynomials()))
+    , laws(laws)
+    , has_small_strain(
+        std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))
+  {
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      law_of_node.push_back(this->laws.at(families->material[i]).get());
+    this->initialize(last);
+  }
+
+  template <int dim>
+  typename SymmetricPairs<dim>::Pairs
+  ConsistentForce<dim>::strain_of(const dealii::Tensor<2, dim> &gradient) const
+  {
+    using Symmetric = SymmetricPairs<dim>;
+    dealii::Tensor<2, dim> strain = gradient;
+    if (!has_small_strain)
+      strain += 0.5 * transpose(gradient) * gradient;
+    typename Symmetric::Pairs result;
+    for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
+      {
+        const auto [a, b] = Symmetric::axes(p);
+        result[p]         = a == b ? strain[a][a] : strain[a][b] + strain[b][a];
+      }
+    return result;
+  }
+
+  template <int dim>
+  void ConsistentForce<dim>::evaluate() const
+  {
+    moments->read(last, GradientMoments<dim>::AtFaces::values);
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      bonds->set_state(i, moments->value(i), strain_of(to_tensor<dim>(moments->gradient(i))));
+    if (has_small_strain)
+      bonds->sum_small();
+    else
+      bonds->sum_finite();
+  }
+
+  template <int dim>
+  void ConsistentForce<dim>::turn_into_stress(const LocalIndex i) const
+  {
+    auto deformation = to_tensor<dim>(moments->gradient(i));
+    if (has_small_strain)
+      deformation = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      deformation[d][d] += 1.;
+    const HyperelasticLaw<dim> &law = *law_of_node[i];
+    points->turn_into_stress(
+      *moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) { return law.stress(gradient); });
+    add_columns<dim>(deformation * bonds->stress(i), moments->gradient(i));
+    moments->force(i) = bonds->force(i);
+  }
+
+  template <int dim>
+  void ConsistentForce<dim>::compute(NodalVector &force, const NodalVector &displacement)
+  {
+    this->move_nodes(displacement);
+    last = displacement;
+    evaluate();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      turn_into_stress(i);
+    moments->transpose(force);
+    force *= -1.;
+    support = moments->support_forces();
+  }
+
+  template <int dim>
+  double ConsistentForce<dim>::strain_energy() const
+  {
+    evaluate();
+    double result = has_small_strain ? bonds->energy_small() : bonds->energy_finite();
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      points->visit(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
+        result += points->weight(i) * law_of_node[i]->energy(gradient);
+      });
+    return dealii::Utilities::MPI::sum(result, families->communicator);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<2, dim>> ConsistentForce<dim>::gradients() const
+  {
+    moments->read(last, GradientMoments<dim>::AtFaces::values);
+    std::vector<dealii::Tensor<2, dim>> result;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      result.push_back(to_tensor<dim>(moments->gradient(i)));
+    return result;
+  }
+
+  template <int dim>
+  std::vector<double> ConsistentForce<dim>::dilatation() const
+  {
+    std::vector<double> result;
+    for (const auto &gradient : gradients())
+      result.push_back(trace(gradient));
+    return result;
+  }
+
+  template <int dim>
+  std::size_t ConsistentForce<dim>::memory_consumption() const
+  {
+    return this->breaking_memory() + points->memory_consumption() + last.memory_consumption() +
+           dealii::MemoryConsumption::memory_consumption(law_of_node);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(ConsistentForce)
+} // namespace perideal
