@@ -29,6 +29,15 @@ namespace perideal
   }
 
   template <int dim>
+  Gauges<dim>::Gauges(const Mesh<dim>               &mesh,
+                      const CellPolynomials<dim>    &polynomials,
+                      const std::vector<Gauge<dim>> &gauges)
+    : gauges(gauges)
+    , ends(mesh, polynomials, ends_of(gauges))
+  {
+  }
+
+  template <int dim>
   std::vector<GaugeReading> Gauges<dim>::read(const NodalVector &displacement) const
   {
     return read(ends.evaluate(displacement));

@@ -23,6 +23,14 @@ namespace perideal
   }
 
   template <int dim>
+  PointForces<dim>::PointForces(const Mesh<dim>            &mesh,
+                                const CellPolynomials<dim> &polynomials,
+                                const Loads<dim>           &loads)
+    : carriers(mesh, polynomials, places_of(loads))
+  {
+  }
+
+  template <int dim>
   void PointForces<dim>::add(const Loads<dim> &loads, const double time, NodalVector &force) const
   {
     const auto &shares = carriers.shares();

@@ -93,6 +93,8 @@ namespace perideal
         preconditioning =
           std::make_unique<Preconditioning<dim>>(problem, 4 * solver.load_steps, solver_report);
         tangent_solver = std::make_unique<TangentSolver<dim>>(solver, [this](const SolverParameters &given) {
+          if (tangent_solver)
+            preconditioning->follow_deformation();
           return preconditioning->create_solver(given, *tangent_system);
         });
         solver_report["name"] = "quasi static, " + tangent_solver->name();

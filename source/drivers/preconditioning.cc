@@ -2,7 +2,13 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/drivers/preconditioning.h>
 #include <perideal/mesh/parent_mesh.h>
+#include <perideal/operators/force/continuum_force.h>
 #include <perideal/solvers/preconditioner_choice.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/mapping_q_cache.h>
+
+#include <algorithm>
 
 namespace perideal
 {
@@ -15,7 +21,10 @@ namespace perideal
     const Mesh<dim> &mesh   = *problem.body.mesh;
     SolverParameters solves = problem.parameters.solver;
     solves.load_steps       = n_solves;
-    choice                  = choose_preconditioner(solves,
+    // Parents cannot follow a deformation.
+    if (!problem.parameters.model.law->is_linear && solves.auxiliary_mesh == AuxiliaryMesh::automatic)
+      solves.auxiliary_mesh = AuxiliaryMesh::same;
+    choice = choose_preconditioner(solves,
                                    measure_solve(mesh,
                                                  *problem.body.nodes,
                                                  *problem.system,
@@ -24,9 +33,9 @@ namespace perideal
     if (choice.preconditioner == PreconditionerName::auxiliary)
       {
         if (choice.auxiliary_mesh == AuxiliaryMesh::parent)
-          fem = std::make_unique<ElasticFem<dim>>(mesh, problem.loading.loads, create_parent_mesh(mesh));
+          fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads, create_parent_mesh(mesh));
         else
-          fem = std::make_unique<ElasticFem<dim>>(mesh, problem.loading.loads);
+          fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads);
         fem->assemble(problem.body.solids, 0.);
       }
     report["preconditioner"] = name_of(choice.preconditioner);
@@ -38,13 +47,75 @@ namespace perideal
   Preconditioning<dim>::create_solver(const SolverParameters         &parameters,
                                       const ConstrainedOperator<dim> &system) const
   {
-    return create_linear_solver(parameters,
-                                choice,
-                                system,
-                                problem.free_motions,
-                                *problem.body.nodes,
-                                fem.get(),
-                                problem.loading.supports->surface_nodes());
+    return create_linear_solver<dim>(parameters,
+                                     choice,
+                                     system,
+                                     problem.free_motions,
+                                     *problem.body.nodes,
+                                     fem,
+                                     problem.loading.supports->surface_nodes());
+  }
+
+  namespace
+  {
+    /// The mapping of the cells as the last forces found them: vertices move by the mean of what the cells
+    /// around make of their gradients. Null where a cell lost its orientation. Collective.
+    template <int dim>
+    std::shared_ptr<const dealii::Mapping<dim>> deformed_mapping(const Nodes<dim>          &nodes,
+                                                                 const ElasticFem<dim>     &fem,
+                                                                 const BondForce<dim>      &force,
+                                                                 const ContinuumForce<dim> &by_law)
+    {
+      const auto  gradients = by_law.gradients();
+      const auto *now       = force.positions();
+      NodalVector n_cells(fem.solution().get_partitioner()), moved(n_cells);
+      bool        is_oriented = true;
+      for (const auto &cell : fem.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const LocalIndex i = nodes.node_of_cell[cell->active_cell_index()];
+            is_oriented =
+              is_oriented &&
+              determinant(gradients[i] + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>())) > 0.05;
+            for (const unsigned int v : cell->vertex_indices())
+              {
+                const auto change = gradients[i] * (cell->vertex(v) - nodes.position[i]);
+                for (int d = 0; d < dim; ++d)
+                  {
+                    const auto unknown = cell->vertex_dof_index(v, d);
+                    moved(unknown) += now[i].value[d] - nodes.position[i][d] + change[d];
+                    n_cells(unknown) += 1.;
+                  }
+              }
+          }
+      n_cells.compress(dealii::VectorOperation::add);
+      moved.compress(dealii::VectorOperation::add);
+      for (unsigned int k = 0; k < moved.locally_owned_size(); ++k)
+        moved.local_element(k) /= n_cells.local_element(k);
+      moved.update_ghost_values();
+      if (dealii::Utilities::MPI::min(is_oriented ? 1 : 0, nodes.communicator) == 0)
+        return nullptr;
+      // deal.II takes linear cells of one shape at rest for alike wherever they have moved; not quadratic
+      // ones.
+      auto result = std::make_shared<dealii::MappingQCache<dim>>(2);
+      result->initialize(fem.mapping(), fem.dof_handler(), moved, true);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void Preconditioning<dim>::follow_deformation()
+  {
+    const auto *by_law = dynamic_cast<const ContinuumForce<dim> *>(problem.force.get());
+    const auto &solids = problem.body.solids;
+    if (!fem || !fem->is_on_mesh_itself() || by_law == nullptr ||
+        !std::all_of(solids.begin(), solids.end(), [](const auto &s) { return s.second.is_isotropic(); }))
+      return;
+    const auto mapping = deformed_mapping(*problem.body.nodes, *fem, *problem.force, *by_law);
+    if (!mapping)
+      return;
+    fem = std::make_shared<ElasticFem<dim>>(*problem.body.mesh, problem.loading.loads);
+    fem->assemble(solids, 0., mapping);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Preconditioning)

@@ -82,7 +82,8 @@ namespace perideal
 
   template <int dim>
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest)
-    : AlgebraicMultigrid(fem.mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), smooth_finest)
+    : AlgebraicMultigrid(
+        fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), smooth_finest)
   {
   }
 

@@ -78,10 +78,13 @@ namespace perideal
   }
 
   template <int dim>
-  void ElasticFem<dim>::assemble(const SolidsByMaterial<dim> &solids, const double time)
+  void ElasticFem<dim>::assemble(const SolidsByMaterial<dim>                       &solids,
+                                 const double                                       time,
+                                 const std::shared_ptr<const dealii::Mapping<dim>> &deformed)
   {
-    assembled.solids = solids;
-    assembled.time   = time;
+    assembled.solids   = solids;
+    assembled.time     = time;
+    assembled.deformed = deformed;
     algebraic_multigrid.reset();
     polynomial_multigrid.reset();
     space.distribute();
@@ -94,7 +97,7 @@ namespace perideal
     displacement.reinit(right_hand_side);
     external.reinit(space.unknowns.get_triangulation(), space.geometry, time);
 
-    CellIntegrals<dim>         integrals(space.geometry, space.element, dim == 2 ? body.thickness : 1.);
+    CellIntegrals<dim>         integrals(matrix_mapping(), space.element, dim == 2 ? body.thickness : 1.);
     const unsigned int         n = space.element.n_dofs_per_cell();
     dealii::FullMatrix<double> matrix(n, n);
     dealii::Vector<double>     forces(n);

@@ -32,10 +32,13 @@ namespace perideal
   }
 
   template <int dim>
-  void Loading<dim>::place_point_forces()
+  void Loading<dim>::place_point_forces(const CellGradients<dim> &gradients)
   {
-    if (!loads.point_loads.empty())
-      point_forces = PointForces<dim>(*body.mesh, CellGraph<dim>(*body.mesh, *body.nodes), loads);
+    if (loads.point_loads.empty())
+      return;
+    point_forces = gradients.polynomials ?
+                     PointForces<dim>(*body.mesh, *gradients.polynomials, loads) :
+                     PointForces<dim>(*body.mesh, CellGraph<dim>(*body.mesh, *body.nodes), loads);
   }
 
   template <int dim>
@@ -46,6 +49,7 @@ namespace perideal
       TreatedBonds<dim>{discretisation.families, discretisation.gradients.moments, solids_of_model(body)});
     discretisation.bonds = tractions->around(discretisation.bonds);
     moments              = discretisation.gradients.moments;
+    place_point_forces(discretisation.gradients);
     if (const auto stiffness = tractions->stiffness())
       discretisation.family_stiffness = stiffness;
   }

@@ -28,7 +28,6 @@ namespace perideal
     body.make_nodes();
     loading.choose_nodes(run.timings);
     discretisation.find_families(parameters, loading.supports->images()->nodes());
-    loading.place_point_forces();
   }
 
   template <int dim>

@@ -32,10 +32,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  PointInterpolation<dim>::PointInterpolation(const Mesh<dim>               &mesh,
-                                              const CellGraph<dim>          &graph,
-                                              const std::vector<NamedPoint> &points)
-    : shares_of_points(points.size())
+  template <typename AddShares>
+  void PointInterpolation<dim>::collect(const Mesh<dim>               &mesh,
+                                        const CellGraph<dim>          &graph,
+                                        const std::vector<NamedPoint> &points,
+                                        const AddShares               &add_shares)
   {
     std::vector<dealii::Point<dim>> positions;
     for (const NamedPoint &point : points)
@@ -45,31 +46,53 @@ namespace perideal
     const auto places = PointLocation<dim>(mesh.triangulation, mapping).share(positions, distances);
     check_inside<dim>(points, distances);
 
-    LinearInterpolation<dim> interpolation;
+    shares_of_points.resize(points.size());
     for (std::size_t p = 0; p < points.size(); ++p)
       {
         std::vector<double> share(graph.n_local());
         for (const auto &at : places[p])
-          {
-            const LocalIndex                own = graph.node_of(at.place.cell);
-            std::vector<LocalIndex>         stencil;
-            std::vector<dealii::Point<dim>> around;
-            for (const LocalIndex j : graph.cells_around(at.place.cell))
-              if (graph.material[j] == graph.material[own])
-                {
-                  stencil.push_back(j);
-                  around.push_back(graph.position[j]);
-                }
-            interpolation.reinit(positions[p], around, LinearInterpolation<dim>::Decay::at_rim, {});
-            const auto &phi = interpolation.weights_at(positions[p]);
-            for (std::size_t k = 0; k < stencil.size(); ++k)
-              share[stencil[k]] += phi[k] / at.n_sharing;
-          }
+          add_shares(at.place.cell, positions[p], 1. / at.n_sharing, share);
         share = graph.sum_to_owners(share);
         for (LocalIndex i = 0; i < share.size(); ++i)
           if (share[i] != 0)
             shares_of_points[p].emplace_back(i, share[i]);
       }
+  }
+
+  template <int dim>
+  PointInterpolation<dim>::PointInterpolation(const Mesh<dim>               &mesh,
+                                              const CellGraph<dim>          &graph,
+                                              const std::vector<NamedPoint> &points)
+  {
+    LinearInterpolation<dim> interpolation;
+    collect(mesh, graph, points, [&](const auto &cell, const auto &x, const double factor, auto &share) {
+      const LocalIndex                own = graph.node_of(cell);
+      std::vector<LocalIndex>         stencil;
+      std::vector<dealii::Point<dim>> around;
+      for (const LocalIndex j : graph.cells_around(cell))
+        if (graph.material[j] == graph.material[own])
+          {
+            stencil.push_back(j);
+            around.push_back(graph.position[j]);
+          }
+      interpolation.reinit(x, around, LinearInterpolation<dim>::Decay::at_rim, {});
+      const auto &phi = interpolation.weights_at(x);
+      for (std::size_t k = 0; k < stencil.size(); ++k)
+        share[stencil[k]] += factor * phi[k];
+    });
+  }
+
+  template <int dim>
+  PointInterpolation<dim>::PointInterpolation(const Mesh<dim>               &mesh,
+                                              const CellPolynomials<dim>    &polynomials,
+                                              const std::vector<NamedPoint> &points)
+  {
+    const CellGraph<dim> &graph = polynomials.graph();
+    collect(mesh, graph, points, [&](const auto &cell, const auto &x, const double factor, auto &share) {
+      polynomials.visit_value(graph.node_of(cell), x, [&](const LocalIndex node, const double weight) {
+        share[node] += factor * weight;
+      });
+    });
   }
 
   template <int dim>

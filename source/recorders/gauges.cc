@@ -18,9 +18,7 @@ namespace perideal
       GaugesRecorder(const Problem<dim> &problem, const RunKind &kind)
         : problem(problem)
         , kind(kind)
-        , gauges(*problem.body.mesh,
-                 CellGraph<dim>(*problem.body.mesh, *problem.body.nodes),
-                 read_gauges<dim>(problem.parameters.gauges))
+        , gauges(make_gauges(problem))
       {
       }
 
@@ -43,6 +41,15 @@ namespace perideal
       void register_state(LastingState &state, Json &summary) override { state.add_part("gauges", summary); }
 
     private:
+      static Gauges<dim> make_gauges(const Problem<dim> &problem)
+      {
+        const Mesh<dim> &mesh = *problem.body.mesh;
+        const auto       list = read_gauges<dim>(problem.parameters.gauges);
+        if (const auto &polynomials = problem.discretisation.gradients.polynomials)
+          return {mesh, *polynomials, list};
+        return {mesh, CellGraph<dim>(mesh, *problem.body.nodes), list};
+      }
+
       const Problem<dim> &problem;
       const RunKind       kind;
       const Gauges<dim>   gauges;

@@ -239,8 +239,8 @@ namespace perideal
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,
-                                                          const ElasticFem<dim>          *fem,
-                                                          const SurfaceNodes<dim>        *surface)
+                                                          const std::shared_ptr<const ElasticFem<dim>> &fem,
+                                                          const SurfaceNodes<dim> *surface)
   {
     if (parameters.assembles())
       {
@@ -272,7 +272,7 @@ namespace perideal
     if (choice.preconditioner == PreconditionerName::block_jacobi)
       return krylov(std::make_unique<BlockJacobi<dim>>(system));
     Assert(fem != nullptr, dealii::ExcInternalError());
-    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, *fem, surface));
+    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, fem, surface));
   }
 
   PERIDEAL_INSTANTIATE_CLASS(LinearSolver)

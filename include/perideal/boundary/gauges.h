@@ -30,7 +30,12 @@ namespace perideal
     /// @throws InputError naming a point outside the body.
     Gauges(const Mesh<dim> &mesh, const CellGraph<dim> &graph, const std::vector<Gauge<dim>> &gauges);
 
-    /// Of a displacement of the nodes [m], by gauge. Collective.
+    /// The same in a body whose displacement is means over cells.
+    Gauges(const Mesh<dim>               &mesh,
+           const CellPolynomials<dim>    &polynomials,
+           const std::vector<Gauge<dim>> &gauges);
+
+    /// Of a displacement of the nodes or of means [m], by gauge. Collective.
     std::vector<GaugeReading> read(const NodalVector &displacement) const;
 
     /// Of the displacements [m] of points().

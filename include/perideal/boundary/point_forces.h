@@ -26,6 +26,9 @@ namespace perideal
     /// @throws InputError naming a point outside the body.
     PointForces(const Mesh<dim> &mesh, const CellGraph<dim> &graph, const Loads<dim> &loads);
 
+    /// The same in a body whose displacement is means over cells.
+    PointForces(const Mesh<dim> &mesh, const CellPolynomials<dim> &polynomials, const Loads<dim> &loads);
+
     /// Adds the forces [N] at a time to those on the owned nodes.
     void add(const Loads<dim> &loads, const double time, NodalVector &force) const;
 

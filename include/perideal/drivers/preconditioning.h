@@ -22,10 +22,15 @@ namespace perideal
     std::unique_ptr<LinearSolver<dim>> create_solver(const SolverParameters         &parameters,
                                                      const ConstrainedOperator<dim> &system) const;
 
+    /// Takes finite elements of the body as the last forces found it, for solvers to come: bodies that turn
+    /// far are another body to a preconditioner at rest. For isotropic solids of a law, on the mesh itself;
+    /// else it does nothing. Collective.
+    void follow_deformation();
+
   private:
     const Problem<dim>              &problem;
     PreconditionerChoice             choice;
-    std::unique_ptr<ElasticFem<dim>> fem;
+    std::shared_ptr<ElasticFem<dim>> fem;
   };
 } // namespace perideal
 

@@ -55,7 +55,10 @@ namespace perideal
     /// assembles matrix and right-hand side. Where the conditions leave a
     /// rigid-body motion free, as many vertex components are pinned to zero;
     /// removing the motion from the result is the caller's business. Collective.
-    void assemble(const SolidsByMaterial<dim> &solids, const double time);
+    /// @param deformed the mapping of a deformed body whose stiffness is wanted; null: the body at rest
+    void assemble(const SolidsByMaterial<dim>                       &solids,
+                  const double                                       time,
+                  const std::shared_ptr<const dealii::Mapping<dim>> &deformed = nullptr);
 
     /// Sets up the multigrid preconditioner of solve(), which does so itself
     /// when it was not done. Collective.
@@ -99,7 +102,12 @@ namespace perideal
     const Mesh<dim> &mesh() const { return body; }
     bool             is_on_mesh_itself() const { return own_cells == nullptr; }
 
-    const dealii::MappingQ<dim>                  &mapping() const { return space.geometry; }
+    const dealii::MappingQ<dim> &mapping() const { return space.geometry; }
+    /// The mapping of the body whose stiffness the matrix is.
+    const dealii::Mapping<dim> &matrix_mapping() const
+    {
+      return assembled.deformed ? *assembled.deformed : space.geometry;
+    }
     const dealii::DoFHandler<dim>                &dof_handler() const { return space.unknowns; }
     const dealii::AffineConstraints<double>      &constraints() const { return held; }
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return stiffness; }
@@ -138,9 +146,10 @@ namespace perideal
     /// What the last assembly was of, and how many components it pinned.
     struct Assembly
     {
-      SolidsByMaterial<dim> solids;
-      double                time = 0;
-      unsigned int          pins = 0;
+      SolidsByMaterial<dim>                       solids;
+      double                                      time = 0;
+      unsigned int                                pins = 0;
+      std::shared_ptr<const dealii::Mapping<dim>> deformed;
     };
     Assembly assembled;
   };

@@ -29,9 +29,6 @@ namespace perideal
     /// Makes the supports, with unknowns and held nodes; needs the nodes. Collective.
     void choose_nodes(Timings &timings);
 
-    /// Finds the cells of point loads. Collective.
-    void place_point_forces();
-
     /// Makes what passes tractions on, and adds what acts besides the bonds. Collective.
     void surround(DiscreteBody<dim> &discretisation, Timings &timings);
 
@@ -63,8 +60,11 @@ namespace perideal
     /// Writes what body forces put on the nodes of cells [N]. Collective.
     void set_body_forces(const double time, NodalVector &force) const;
 
+    /// Finds the cells of point loads. Collective.
+    void place_point_forces(const CellGradients<dim> &gradients);
+
     PointForces<dim> point_forces;
-    /// Of the linear consistent form, which takes body forces by moments; else null.
+    /// Of the consistent form, which takes body forces by moments; else null.
     std::shared_ptr<const GradientMoments<dim>> moments;
   };
 } // namespace perideal

@@ -54,6 +54,25 @@ namespace perideal
     const std::vector<LocalIndex> &columns() const { return column; }
     const std::vector<Terms>      &coefficients() const { return coefficient; }
 
+    /// Calls visit(node, weight) for what the value of an owned cell's polynomial at a point takes of means.
+    template <typename Visit>
+    void visit_value(const LocalIndex i, const dealii::Point<dim> &point, const Visit &visit) const
+    {
+      std::array<double, Monomials<dim>::n> monomial;
+      Monomials<dim>::evaluate(point - centroid[i], monomial);
+      const auto mean = means(i);
+      double     own  = 1.;
+      for (BondIndex k = row[i]; k < row[i + 1]; ++k)
+        {
+          double weight = 0;
+          for (unsigned int t = 0; t < n_terms; ++t)
+            weight += coefficient[k][t] * (monomial[1 + t] - (t < dim ? 0. : mean[t - dim]));
+          own -= weight;
+          visit(column[k], weight);
+        }
+      visit(i, own);
+    }
+
     /// Means of the quadratic monomials over an owned cell, in the order of the pairs [m^2].
     std::array<double, Monomials<dim>::n_quadratic> means(const LocalIndex i) const
     {

@@ -5,6 +5,7 @@
 #include <perideal/base/types.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/cell_graph.h>
+#include <perideal/reconstruction/cell_polynomials.h>
 
 #include <string>
 #include <utility>
@@ -16,8 +17,9 @@ namespace perideal
    * Interpolates values at points of the body or its boundary from those of the nodes around.
    *
    * v(x) is the moving least squares through the vertex neighbours, of one material, of the cell that x lies
-   * in; where it lies on a face, an edge or a vertex, the mean over the cells that share it. Linear fields
-   * are reproduced.
+   * in, or the polynomial of the cell where values are means over cells (CellPolynomials); where x lies on a
+   * face, an edge or a vertex, the mean over the cells that share it. Linear fields are reproduced, and
+   * quadratic ones by polynomials.
    */
   template <int dim>
   class PointInterpolation
@@ -42,6 +44,11 @@ namespace perideal
                        const CellGraph<dim>          &graph,
                        const std::vector<NamedPoint> &points);
 
+    /// The same of fields of means over cells.
+    PointInterpolation(const Mesh<dim>               &mesh,
+                       const CellPolynomials<dim>    &polynomials,
+                       const std::vector<NamedPoint> &points);
+
     /// The shares of this rank's nodes in the value at each point.
     const std::vector<std::vector<Share>> &shares() const { return shares_of_points; }
 
@@ -49,6 +56,14 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> evaluate(const NodalVector &field) const;
 
   private:
+    /// Visits the cells of this rank at each point.
+    /// @param add_shares (cell, point, factor, shares by local node of the graph)
+    template <typename AddShares>
+    void collect(const Mesh<dim>               &mesh,
+                 const CellGraph<dim>          &graph,
+                 const std::vector<NamedPoint> &points,
+                 const AddShares               &add_shares);
+
     std::vector<std::vector<Share>> shares_of_points;
   };
 } // namespace perideal

@@ -81,8 +81,8 @@ namespace perideal
                                                           const ConstrainedOperator<dim> &system,
                                                           const NullSpace<dim>           &null_space,
                                                           const Nodes<dim>               &nodes,
-                                                          const ElasticFem<dim>          *fem,
-                                                          const SurfaceNodes<dim>        *surface = nullptr);
+                                                          const std::shared_ptr<const ElasticFem<dim>> &fem,
+                                                          const SurfaceNodes<dim> *surface = nullptr);
 } // namespace perideal
 
 #endif

@@ -31,7 +31,7 @@ namespace perideal
   typename SymmetricPairs<dim>::Pairs
   ConsistentForce<dim>::strain_of(const dealii::Tensor<2, dim> &gradient) const
   {
-    using Symmetric = SymmetricPairs<dim>;
+    using Symmetric               = SymmetricPairs<dim>;
     dealii::Tensor<2, dim> strain = gradient;
     if (!has_small_strain)
       strain += 0.5 * transpose(gradient) * gradient;
@@ -65,8 +65,9 @@ namespace perideal
     for (unsigned int d = 0; d < dim; ++d)
       deformation[d][d] += 1.;
     const HyperelasticLaw<dim> &law = *law_of_node[i];
-    points->turn_into_stress(
-      *moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) { return law.stress(gradient); });
+    points->turn_into_stress(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
+      return law.stress(gradient);
+    });
     add_columns<dim>(deformation * bonds->stress(i), moments->gradient(i));
     moments->force(i) = bonds->force(i);
   }

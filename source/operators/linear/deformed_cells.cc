@@ -72,7 +72,7 @@ namespace perideal
     using Symmetric = SymmetricPairs<dim>;
     for (LocalIndex i = 0; i < moments->n_owned(); ++i)
       {
-        const auto change = transpose(deformation(i)) * to_tensor<dim>(moments->gradient(i));
+        const auto                change = transpose(deformation(i)) * to_tensor<dim>(moments->gradient(i));
         typename Symmetric::Pairs strain;
         for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
           {

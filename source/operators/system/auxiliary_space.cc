@@ -43,13 +43,14 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  AuxiliarySpace<dim>::AuxiliarySpace(const ConstrainedOperator<dim> &system,
-                                      const Nodes<dim>               &nodes,
-                                      const ElasticFem<dim>          &fem,
-                                      const SurfaceNodes<dim>        *surface)
+  AuxiliarySpace<dim>::AuxiliarySpace(const ConstrainedOperator<dim>               &system,
+                                      const Nodes<dim>                             &nodes,
+                                      const std::shared_ptr<const ElasticFem<dim>> &fem,
+                                      const SurfaceNodes<dim>                      *surface)
     : system(system)
     , smoother(system)
-    , multigrid(fem, !fem.is_on_mesh_itself())
+    , elements(fem)
+    , multigrid(*fem, !fem->is_on_mesh_itself())
   {
     // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000
     // cells. Few Lanczos steps do, for iterations hardly depend on it.
@@ -57,14 +58,14 @@ namespace perideal
       smoother.set_damping(1.3 / largest);
 
     set_weights();
-    coarse_source.reinit(fem.solution());
-    coarse_solution.reinit(fem.solution());
-    find_places(nodes, fem);
+    coarse_source.reinit(fem->solution());
+    coarse_solution.reinit(fem->solution());
+    find_places(nodes, *fem);
     if (surface != nullptr)
-      add_places(*surface, fem.mesh(), nodes);
-    find_dependences(fem);
+      add_places(*surface, fem->mesh(), nodes);
+    find_dependences(*fem);
     for (unsigned int i = 0; i < coarse_source.locally_owned_size(); ++i)
-      if (fem.constraints().is_constrained(coarse_source.get_partitioner()->local_to_global(i)))
+      if (fem->constraints().is_constrained(coarse_source.get_partitioner()->local_to_global(i)))
         constrained.push_back(i);
   }
 

@@ -194,13 +194,13 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
-          const LocalIndex  j    = bonds.neighbour[k];
-          const NodeRecord *near = work.states.data() + n_records * i;
-          const NodeRecord *far  = work.states.data() + n_records * j;
+          const LocalIndex  j           = bonds.neighbour[k];
+          const NodeRecord *near        = work.states.data() + n_records * i;
+          const NodeRecord *far         = work.states.data() + n_records * j;
           const NodeRecord *near_strain = near + 1, *far_strain = far + 1;
-          const auto        along = bond(i, j);
+          const auto        along  = bond(i, j);
           const Pairs       square = Symmetric::products(along);
-          double            r = 0;
+          double            r      = 0;
           for (int d = 0; d < dim; ++d)
             {
               const double moved = far->value[d] - near->value[d];

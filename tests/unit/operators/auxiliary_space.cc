@@ -69,10 +69,10 @@ namespace
       return Loads<dim>(parameters);
     }
 
-    std::unique_ptr<ElasticFem<dim>> make_fem(const bool on_parents) const
+    std::shared_ptr<ElasticFem<dim>> make_fem(const bool on_parents) const
     {
-      auto fem = on_parents ? std::make_unique<ElasticFem<dim>>(*mesh, loads, create_parent_mesh(*mesh)) :
-                              std::make_unique<ElasticFem<dim>>(*mesh, loads);
+      auto fem = on_parents ? std::make_shared<ElasticFem<dim>>(*mesh, loads, create_parent_mesh(*mesh)) :
+                              std::make_shared<ElasticFem<dim>>(*mesh, loads);
       fem->assemble({{0, constants(dim)}}, 0.);
       return fem;
     }
@@ -113,9 +113,9 @@ namespace
         SCOPED_TRACE(on_parents ? "parents" : "same");
         const auto  fem = box.make_fem(on_parents), fem_alone = alone.make_fem(on_parents);
         NodalVector found, found_alone;
-        const auto  iterations = box.solve(found, AuxiliarySpace<dim>(*box.system, box.body.nodes, *fem));
+        const auto  iterations = box.solve(found, AuxiliarySpace<dim>(*box.system, box.body.nodes, fem));
         const auto  iterations_alone =
-          alone.solve(found_alone, AuxiliarySpace<dim>(*alone.system, alone.body.nodes, *fem_alone));
+          alone.solve(found_alone, AuxiliarySpace<dim>(*alone.system, alone.body.nodes, fem_alone));
         EXPECT_LE(iterations, most_iterations);
         EXPECT_LT(iterations, by_jacobi);
         EXPECT_NEAR(iterations, iterations_alone, 3);
@@ -131,7 +131,7 @@ namespace
   {
     const HeldBox<dim>        box(1, local, MPI_COMM_WORLD);
     const auto                fem = box.make_fem(on_parents);
-    const AuxiliarySpace<dim> preconditioner(*box.system, box.body.nodes, *fem);
+    const AuxiliarySpace<dim> preconditioner(*box.system, box.body.nodes, fem);
     NodalVector               a, b, of_a, of_b;
     for (NodalVector *vector : {&a, &b, &of_a, &of_b})
       box.system->initialize(*vector);

@@ -51,13 +51,13 @@ namespace
           for (int d = 0; d < dim; ++d)
             text.conditions.back().displacement[d] = test::formula(H, d);
         }
-      const Loads<dim> loads = resolve_boundaries(mesh, Loads<dim>(text));
-      const auto solid_of = [solid](const dealii::types::material_id) { return solid; };
+      const Loads<dim> loads    = resolve_boundaries(mesh, Loads<dim>(text));
+      const auto       solid_of = [solid](const dealii::types::material_id) { return solid; };
       if (form == "consistent")
         {
           const auto polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, body.nodes);
-          const auto faces =
-            std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; });
+          const auto faces       = std::make_shared<const FaceMoments<dim>>(
+            mesh, polynomials->graph(), [](const auto) { return 1.; });
           face_values = std::make_shared<FaceValues<dim>>(faces->boundary_points(), loads);
           face_values->set_time(loads, 1.);
           moments =

@@ -25,9 +25,7 @@ namespace perideal
    * Nothing breaks: no crack crosses a face.
    */
   template <int dim>
-  class ConsistentForce
-    : public BreakingBonds<dim>
-    , public ContinuumForce<dim>
+  class ConsistentForce : public BreakingBonds<dim>, public ContinuumForce<dim>
   {
   public:
     /// @param laws by material id; every material of the nodes is listed
@@ -48,10 +46,10 @@ namespace perideal
       AssertThrow(false, dealii::ExcNotImplemented());
     }
 
-    void                                compute(NodalVector &force, const NodalVector &displacement) override;
-    double                              strain_energy() const override;
-    double                              released_energy(const NodalVector &, const double) const override { return 0.; }
-    std::vector<double>                 dilatation() const override;
+    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    double              strain_energy() const override;
+    double              released_energy(const NodalVector &, const double) const override { return 0.; }
+    std::vector<double> dilatation() const override;
     std::vector<dealii::Tensor<1, dim>> support_forces() const override { return support; }
     std::size_t                         memory_consumption() const override;
 

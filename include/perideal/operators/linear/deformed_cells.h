@@ -60,12 +60,12 @@ namespace perideal
     static Moduli                 pack(const dealii::Tensor<4, dim> &tangent);
     static dealii::Tensor<2, dim> multiply(const Moduli &moduli, const dealii::Tensor<2, dim> &gradient);
 
-    std::shared_ptr<const GradientMoments<dim>>    moments;
-    std::shared_ptr<ConsistentBonds<dim>>          bonds;
-    std::shared_ptr<const CellPoints<dim>>         points;
-    typename ConsistentBonds<dim>::Linearisation   of_bonds;
-    dealii::AlignedVector<NodeRecord>              deformations;
-    std::vector<dealii::SymmetricTensor<2, dim>>   bond_stress;
+    std::shared_ptr<const GradientMoments<dim>>         moments;
+    std::shared_ptr<ConsistentBonds<dim>>               bonds;
+    std::shared_ptr<const CellPoints<dim>>              points;
+    typename ConsistentBonds<dim>::Linearisation        of_bonds;
+    dealii::AlignedVector<NodeRecord>                   deformations;
+    std::vector<dealii::SymmetricTensor<2, dim>>        bond_stress;
     std::vector<std::array<Moduli, CellPoints<dim>::n>> moduli;
   };
 } // namespace perideal

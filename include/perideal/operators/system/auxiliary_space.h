@@ -27,12 +27,12 @@ namespace perideal
   {
   public:
     /// @param fem degree one, assembled, on the nodes' mesh or on that of
-    ///   create_parent_mesh(). The arguments must outlive this object.
+    ///   create_parent_mesh(), which is kept. The other arguments must outlive this object.
     /// @param surface the system's nodes on faces, or a null pointer where it has none
-    AuxiliarySpace(const ConstrainedOperator<dim> &system,
-                   const Nodes<dim>               &nodes,
-                   const ElasticFem<dim>          &fem,
-                   const SurfaceNodes<dim>        *surface = nullptr);
+    AuxiliarySpace(const ConstrainedOperator<dim>               &system,
+                   const Nodes<dim>                             &nodes,
+                   const std::shared_ptr<const ElasticFem<dim>> &fem,
+                   const SurfaceNodes<dim>                      *surface = nullptr);
 
     void vmult(NodalVector &destination, const NodalVector &source) const;
 
@@ -66,9 +66,10 @@ namespace perideal
     void restrict_to_fem(NodalVector &coarse, const NodalVector &fine) const;
     void add_prolonged(NodalVector &fine, NodalVector &coarse) const;
 
-    const ConstrainedOperator<dim> &system;
-    BlockJacobi<dim>                smoother;
-    AlgebraicMultigrid<dim>         multigrid;
+    const ConstrainedOperator<dim>        &system;
+    BlockJacobi<dim>                       smoother;
+    std::shared_ptr<const ElasticFem<dim>> elements;
+    AlgebraicMultigrid<dim>                multigrid;
 
     /// Values of the linear shape functions in the middles of each child and of the element.
     std::array<std::array<double, n_vertices>, (n_vertices + 1) * n_middles> weights;

@@ -57,9 +57,8 @@ namespace perideal
       for (LocalIndex i = 0; i < volume.size(); ++i)
         {
           dealii::SymmetricTensor<2, dim> root;
-          for (const auto &[value, axis] :
-               dealii::eigenvectors(polynomials.second_moments()[i],
-                                    dealii::SymmetricTensorEigenvectorMethod::jacobi))
+          for (const auto &[value, axis] : dealii::eigenvectors(
+                 polynomials.second_moments()[i], dealii::SymmetricTensorEigenvectorMethod::jacobi))
             root += std::sqrt(dim / value) / volume[i] * dealii::symmetrize(outer_product(axis, axis));
           offset.emplace_back();
           for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
@@ -83,8 +82,8 @@ namespace perideal
     template <typename Visit>
     void visit(const GradientMoments<dim> &moments, const LocalIndex i, const Visit &visit) const
     {
-      const auto   q    = offsets(i);
-      const auto   mean = to_tensor<dim>(moments.gradient(i));
+      const auto q    = offsets(i);
+      const auto mean = to_tensor<dim>(moments.gradient(i));
       for (unsigned int k = 0; k < dim; ++k)
         {
           dealii::Tensor<2, dim> change;
@@ -98,7 +97,8 @@ namespace perideal
     /// Puts what acts on the gradient and its moments of an owned cell in their places.
     /// @param stress_of P [Pa] by point and gradient there
     template <typename StressOf>
-    void turn_into_stress(const GradientMoments<dim> &moments, const LocalIndex i, const StressOf &stress_of) const
+    void
+    turn_into_stress(const GradientMoments<dim> &moments, const LocalIndex i, const StressOf &stress_of) const
     {
       dealii::Tensor<2, dim>                  sum;
       std::array<dealii::Tensor<2, dim>, dim> difference;

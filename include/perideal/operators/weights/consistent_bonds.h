@@ -53,7 +53,7 @@ namespace perideal
     void set_state(const LocalIndex i, const NodeRecord &displacement, const Pairs &strain)
     {
       NodeRecord *state = work.states.data() + n_records * i, *pairs = state + 1;
-      state[0]          = displacement;
+      state[0] = displacement;
       for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
         Symmetric::pair(pairs, p) = strain[p];
     }
@@ -120,10 +120,10 @@ namespace perideal
     };
     /// @param at of changes; else null
     template <Kinematics kinematics>
-    void sum(const Linearisation *at);
+    void   sum(const Linearisation *at);
     double energy(const bool is_finite) const;
-    void weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of);
-    void update_ghosts();
+    void   weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of);
+    void   update_ghosts();
 
     std::shared_ptr<const Families<dim>> families;
     BondList                             bonds;
