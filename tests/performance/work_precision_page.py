@@ -19,6 +19,9 @@ CHOICES = [
     ("a regular mesh for it", "`Mesh/Refinements` = 1 or more of fewer cells: what the preconditioner takes from elements is "
      "then on their parents", "plate_with_hole", ["consistent form", "consistent form, without parents"]),
     ("the same in 3-D", "nothing", "block_with_hole", ["consistent form", "FEM Q1", "energy form, mirror"]),
+    ("thin parts that bend", "nothing; three layers of cells are enough", "thin_cantilever",
+     ["consistent form", "FEM Q1", "energy form, layer"]),
+    ("CAD parts, meshed by dividing tetrahedra", "nothing", "drilled_block", ["consistent form", "FEM Q1"]),
     ("linear statics of fibres and crystals", "`Model = tensor involved`", "laminate_with_hole",
      ["consistent form", "FEM Q1", "surface cure, collar", "one point, collar"]),
     ("bonds between nodes in linear statics", "`Form = energy`, `Treatment = taylor ghosts`", "plate_with_hole",
@@ -32,7 +35,7 @@ CHOICES = [
     ("bonds with tensors, in motion or with cracks", "`Form = moment corrected` (the default there)",
      "tensor_manufactured_2d", ["moment corrected", "one point", "one point, exact parts"]),
     ("large strain", "`Model = correspondence`, `Form = consistent`", "hyperelastic_bar",
-     ["correspondence, faces", "FEM Q1", "correspondence, families"]),
+     ["consistent form", "FEM Q1", "correspondence, families"]),
     ("motion", "`Form = energy`, one point (the defaults there)", "standing_wave",
      ["energy form", "ordinary", "springs, exact parts", "springs"]),
 ]

@@ -121,7 +121,6 @@ def hole_methods(paper, coarse, coarse_of_q2):
         bonds("ordinary, ghosts", (ORDINARY, held("automatic"), ghosts), drawn=False),
         bonds("springs, mirror", (SPRINGS, held("mirror")), drawn=False),
         bonds("springs, exact parts", (SPRINGS, scheme("exact"), held("layer")), drawn=False),
-        bonds("correspondence, faces", (CORRESPONDENCE, "Material/Form=consistent", OWN_INFLUENCE, held("automatic"))),
         bonds("correspondence, families", (CORRESPONDENCE, "Material/Form=family", OWN_INFLUENCE, held("layer"))),
         bonds("paper's way", (*paper, ONE_POINT, held("layer"), RELAXATION, *SMALL_PULL), "paper"),
     )
@@ -186,7 +185,6 @@ MANUFACTURED = Scene(
      Method("one point", (TENSORS, "Material/Form=one point")),
      Method("one point, partial volume", (TENSORS, "Material/Form=one point", scheme("partial volume"))),
      Method("one point, exact parts", (TENSORS, "Material/Form=one point", scheme("exact"))),
-     Method("correspondence, faces", (CORRESPONDENCE, "Material/Form=consistent", *NO_COLLAR)),
      Method("correspondence, families", (CORRESPONDENCE, "Material/Form=family")),
      Method("paper's way", (TENSORS, "Material/Form=one point", ONE_POINT, RELAXATION), "paper", 4)),
     (1e-2, 1e-3, 1e-4), carrier=TENSORS_AT_FACES)
@@ -212,7 +210,6 @@ LAMINATE = Scene(
      Method("moment corrected, collar", (TENSORS, "Material/Form=moment corrected", *IN_COLLAR)),
      Method("one point, collar", (TENSORS, "Material/Form=one point", *IN_COLLAR)),
      Method("one point, layer", (TENSORS, "Material/Form=one point", held("layer")), drawn=False),
-     Method("correspondence, faces", (CORRESPONDENCE, "Material/Form=consistent", held("automatic"))),
      Method("correspondence, families, collar", (CORRESPONDENCE, "Material/Form=family", *IN_COLLAR)),
      Method("paper's way", (TENSORS, "Material/Form=one point", held("layer"), ONE_POINT, RELAXATION), "paper")),
     (5e-2, 1e-2, 1e-3), "reference", carrier=LAMINATE_AT_FACES)
@@ -231,11 +228,9 @@ def pdbc(scene, about, resolutions, exact=(), truth="exact"):
                          drawn=model == "springs" or (model, short) in drawn,
                          accurate=(model, short) == ("energy form", "ghosts"))
                   for model, settings in models.items() for short, treatment in treatments.items())
-    correspondence = (CORRESPONDENCE, "Material/Form=consistent", OWN_INFLUENCE, treated("automatic"), *solid)
     paper = (SPRINGS, treated("printed"), "Boundary conditions/Transfer lambda=0", ONE_POINT, RELAXATION)
     return Scene(f"prm/examples/{scene}.prm", about, resolutions,
                  (*finite_elements(consistent), Method("consistent form", consistent, accurate=True), *bonds,
-                  Method("correspondence, faces", correspondence, drawn=False),
                   Method("paper's way", paper, "paper")),
                  (1e-1, 1e-2, 1e-3, 1e-4), truth, carrier=consistent)
 
@@ -315,6 +310,40 @@ GRADED = Scene(
     (1e-1, 1e-2, 1e-3, 1e-4), common=("Solver/Tolerance=1e-8",), carrier=CONSISTENT_NO_COLLAR)
 
 
+FORMS_UNDER_TRACTIONS = (
+    Method("consistent form", CONSISTENT_AT_FACES, accurate=True),
+    Method("energy form, layer", (EXTENDED, "Material/Form=energy", held("layer"))),
+    Method("energy form, ghosts", (EXTENDED, "Material/Form=energy", held("automatic"), treated("taylor ghosts"))),
+    Method("paper form, layer", (*PAPER, held("layer"))),
+    Method("springs, layer", (SPRINGS, held("layer")), drawn=False))
+SINE = Scene(
+    "tests/scenes/sine_field.prm",
+    "A manufactured field in a square, one side held, tractions on the others and a body force; against the exact field.",
+    tuple(mesh(f"{cells * cells:,}", f"{cells}, {cells}") for cells in (6, 12, 24, 48, 96)),
+    (*finite_elements(CONSISTENT_AT_FACES), *FORMS_UNDER_TRACTIONS[:-1]),
+    (1e-2, 1e-3, 1e-4, 1e-5), carrier=CONSISTENT_AT_FACES)
+CANTILEVER = Scene(
+    "tests/scenes/thin_cantilever.prm",
+    "A thin cantilever, twenty times as long as thick, bent; against a converged reference.",
+    (mesh("40", "20, 2", truth=refined(4)), mesh("160", "40, 4", truth=refined(3)),
+     mesh("640", "80, 8", truth=refined(2)), mesh("2,560", "160, 16", truth=refined(2))),
+    (*finite_elements(CONSISTENT_AT_FACES, coarse=3), *FORMS_UNDER_TRACTIONS),
+    (1e-1, 1e-2, 1e-3), "reference", carrier=CONSISTENT_AT_FACES)
+
+
+def drilled(name, size):
+    return Resolution(name, (), refined(0), (), ("meshes/drilled_block.geo", size))
+
+
+DRILLED = Scene(
+    "prm/examples/drilled_block.prm",
+    "A block with a bore, drawn by OpenCASCADE and meshed by dividing tetrahedra into hexahedra, bent; against quadratic "
+    "elements on the mesh itself.",
+    (drilled("3,996", 0.2), drilled("5,460", 0.15), drilled("10,732", 0.1), drilled("28,160", 0.07)),
+    (*finite_elements(CONSISTENT_AT_FACES)[:1], FORMS_UNDER_TRACTIONS[0], *FORMS_UNDER_TRACTIONS[1:2]),
+    (5e-2, 1e-2, 1e-3), "reference", carrier=CONSISTENT_AT_FACES)
+
+
 def errors_of_bar(summary, fem, _truth, finest):
     """The largest of the relative errors of the pull and of the strains at the middle, and how far the lateral stretch
     there is from that which goes with the axial one in a long bar."""
@@ -337,7 +366,7 @@ BAR = Scene(
     "method is the program's own: dynamic relaxation has no correspondence model.",
     (mesh("156", "26, 6"), mesh("600", "50, 12"), mesh("2,400", "100, 24"), mesh("5,400", "150, 36")),
     (Method("FEM Q1", BAR_AT_FACES, "fem"),
-     Method("correspondence, faces", BAR_AT_FACES),
+     Method("consistent form", BAR_AT_FACES),
      Method("correspondence, families", (CORRESPONDENCE, "Material/Form=family")),
      Method("correspondence, families, no penalty",
             (CORRESPONDENCE, "Material/Form=family", "Material/Stabilisation=0"))),
@@ -364,4 +393,5 @@ WAVE = Scene(
 
 SCENES = {"plate_with_hole": PLATE, "block_with_hole": BLOCK, "tensor_manufactured_2d": MANUFACTURED,
           "laminate_with_hole": LAMINATE, **PDBC, "tension_column": COLUMN, "graded_square": GRADED,
+          "sine_field": SINE, "thin_cantilever": CANTILEVER, "drilled_block": DRILLED,
           "hyperelastic_bar": BAR, "standing_wave": WAVE}
