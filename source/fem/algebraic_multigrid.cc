@@ -52,7 +52,7 @@ namespace perideal
 
     /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
     template <int dim>
-    Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space, const bool smooth_finest)
+    Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space, const unsigned int finest_sweeps)
     {
       Teuchos::ParameterList options;
       ML_Epetra::SetDefaults("SA", options);
@@ -66,12 +66,12 @@ namespace perideal
       options.set("aggregation: threshold", 0.);
       options.set("smoother: type", "Chebyshev");
       options.set("smoother: sweeps", 2);
-
       options.set("smoother: pre or post", "both");
-      if (!smooth_finest)
-        options.set("smoother: type (level 0)", "do-nothing");
+      options.set("smoother: sweeps (level 0)", static_cast<int>(finest_sweeps));
       options.set("coarse: type", "Amesos-KLU");
-      options.set("coarse: max size", 2000);
+      // Factors of larger ones take longer than the levels that they save; below 1,000 thin bodies take more
+      // iterations.
+      options.set("coarse: max size", 1000);
       options.set("null space: type", "pre-computed");
       options.set("null space: dimension", near_null_space.NumVectors());
       options.set("null space: vectors", near_null_space.Values());
@@ -81,9 +81,8 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest)
-    : AlgebraicMultigrid(
-        fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), smooth_finest)
+  AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const unsigned int finest_sweeps)
+    : AlgebraicMultigrid(fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), finest_sweeps)
   {
   }
 
@@ -92,7 +91,7 @@ namespace perideal
                                               const dealii::DoFHandler<dim>                &unknowns,
                                               const dealii::AffineConstraints<double>      &constraints,
                                               const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                                              const bool                                    smooth_finest)
+                                              const bool                                    finest_sweeps)
     : implementation(std::make_unique<Implementation>(matrix))
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
@@ -100,7 +99,7 @@ namespace perideal
     // ML estimates eigenvalues from random vectors. Once it has chosen a seed (0: not yet), that is put back,
     // so that set-ups do not depend on how many there were: a run that goes on from a checkpoint has fewer.
     const int seed = ML_get_random_seed();
-    implementation->multigrid.initialize(matrix, multigrid_options<dim>(modes, smooth_finest));
+    implementation->multigrid.initialize(matrix, multigrid_options<dim>(modes, finest_sweeps));
     if (seed != 0)
       ML_set_random_seed(seed);
   }

@@ -117,7 +117,7 @@ namespace perideal
   void ElasticFem<dim>::set_up_solver()
   {
     if (space.element.degree == 1)
-      algebraic_multigrid = std::make_unique<AlgebraicMultigrid<dim>>(*this, true);
+      algebraic_multigrid = std::make_unique<AlgebraicMultigrid<dim>>(*this);
     else
       {
         auto linear = std::make_unique<ElasticFem<dim>>(body, loads, own_cells);

@@ -23,16 +23,15 @@ namespace perideal
   {
   public:
     /// @param fem an assembled problem, which must outlive this object
-    /// @param smooth_finest false: no smoother on the finest level, for use as the
-    ///   coarse part of an auxiliary-space preconditioner, whose own smoother does that work.
-    AlgebraicMultigrid(const ElasticFem<dim> &fem, const bool smooth_finest);
+    /// @param finest_sweeps degree of the Chebyshev smoother on the finest level, 1 or 2
+    AlgebraicMultigrid(const ElasticFem<dim> &fem, const unsigned int finest_sweeps = 2);
 
     /// The same for the matrix of any such elements, which must outlive this object.
     AlgebraicMultigrid(const dealii::Mapping<dim>                   &mapping,
                        const dealii::DoFHandler<dim>                &unknowns,
                        const dealii::AffineConstraints<double>      &constraints,
                        const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                       const bool                                    smooth_finest);
+                       const unsigned int                            finest_sweeps = 2);
     ~AlgebraicMultigrid();
 
     /// Approximates the inverse of the matrix applied to @p source. The vectors

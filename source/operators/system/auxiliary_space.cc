@@ -50,7 +50,7 @@ namespace perideal
     : system(system)
     , smoother(system)
     , elements(fem)
-    , multigrid(*fem, !fem->is_on_mesh_itself())
+    , multigrid(*fem, fem->is_on_mesh_itself() ? 1 : 2)
   {
     // A little more than 1: the best of 0.7 to 2 on plates of 2,000 to 120,000
     // cells. Few Lanczos steps do, for iterations hardly depend on it.
