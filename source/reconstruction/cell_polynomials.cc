@@ -5,6 +5,7 @@
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
@@ -119,11 +120,11 @@ namespace perideal
     /// The cells around a cell, and around those behind it.
     Stencil near(const Cell &cell) const
     {
-      Stencil stencil = graph.cells_around(cell);
+      Stencil stencil = graph.nodes_around(graph.node_of(cell));
       for (const unsigned int f : cell->face_indices())
         if (ends_at(cell, f))
           visit_beyond(cell, dealii::GeometryInfo<dim>::opposite_face[f], [&](const Cell &behind) {
-            const Stencil more = graph.cells_around(behind);
+            const Stencil &more = graph.nodes_around(graph.node_of(behind));
             stencil.insert(stencil.end(), more.begin(), more.end());
           });
       clean(stencil);
@@ -153,7 +154,7 @@ namespace perideal
     Stencil with_ring(const Cell &cell, const Stencil &stencil) const
     {
       Stencil wider = stencil;
-      for (const LocalIndex k : graph.cells_around(cell))
+      for (const LocalIndex k : graph.nodes_around(graph.node_of(cell)))
         if (is_alike(k))
           {
             const Stencil &more = graph.nodes_around(k);
@@ -172,9 +173,11 @@ namespace perideal
         std::remove_if(stencil.begin(), stencil.end(), [&](const LocalIndex k) { return !is_alike(k); }),
         stencil.end());
       // In the order of all ranks, so that sums do not depend on their number.
-      std::sort(stencil.begin(), stencil.end(), [&](const LocalIndex a, const LocalIndex b) {
+      const auto before = [&](const LocalIndex a, const LocalIndex b) {
         return graph.global_number(a) < graph.global_number(b);
-      });
+      };
+      if (!std::is_sorted(stencil.begin(), stencil.end(), before))
+        std::sort(stencil.begin(), stencil.end(), before);
       stencil.erase(std::unique(stencil.begin(), stencil.end()), stencil.end());
     }
 
@@ -213,6 +216,11 @@ namespace perideal
         }
     centroid = cells.with_ghosts(centroid);
     moments  = cells.with_ghosts(moments);
+    // What regular meshes take.
+    const std::size_t n_entries = (dealii::Utilities::pow(3, dim) - 1) * static_cast<std::size_t>(nodes.size());
+    row.reserve(nodes.size() + 1);
+    column.reserve(n_entries);
+    coefficient.reserve(n_entries);
     Builder builder(*this);
     for (const auto &cell : cell_of_node)
       builder.add(cell);

@@ -112,6 +112,8 @@ namespace perideal
             add_inner(child, cell->neighbor_face_no(f), cell);
         }
     };
+    list.reserve(mesh.triangulation.n_active_faces());
+    value.reserve(list.capacity() * (dim + Monomials<dim>::n));
     // In the order of the nodes, so that those of a cell's faces lie close in memory.
     std::vector<Cell> cells(graph.n_owned());
     for (const Cell &cell : mesh.triangulation.active_cell_iterators())

@@ -88,6 +88,7 @@ namespace perideal
   template <int dim>
   void GradientMoments<dim>::collect_faces()
   {
+    faces_of_cells.reserve(face_moments->faces().size());
     for (const auto &from : face_moments->faces())
       {
         Face face{};
