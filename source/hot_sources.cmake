@@ -37,6 +37,7 @@ set(hot_sources
   operators/force/relative_damping.cc
   operators/force/tensor_force.cc
   operators/linear/bond_operator.cc
+  operators/linear/bond_blocks.cc
   operators/linear/consistent_operator.cc
   operators/linear/consistent_operator_loops.cc
   operators/linear/consistent_operator_matrix.cc

@@ -52,7 +52,8 @@ namespace perideal
 
     /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
     template <int dim>
-    Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space, const unsigned int finest_sweeps)
+    Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space,
+                                             const unsigned int  finest_sweeps)
     {
       Teuchos::ParameterList options;
       ML_Epetra::SetDefaults("SA", options);

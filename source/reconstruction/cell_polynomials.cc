@@ -217,7 +217,8 @@ namespace perideal
     centroid = cells.with_ghosts(centroid);
     moments  = cells.with_ghosts(moments);
     // What regular meshes take.
-    const std::size_t n_entries = (dealii::Utilities::pow(3, dim) - 1) * static_cast<std::size_t>(nodes.size());
+    const std::size_t n_entries =
+      (dealii::Utilities::pow(3, dim) - 1) * static_cast<std::size_t>(nodes.size());
     row.reserve(nodes.size() + 1);
     column.reserve(n_entries);
     coefficient.reserve(n_entries);

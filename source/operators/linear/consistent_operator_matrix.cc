@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/linear/bond_blocks.h>
+#include <perideal/operators/linear/cell_block.h>
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/weights/gradient_rows.h>
 
@@ -24,13 +26,6 @@ namespace perideal
   {
     template <int dim>
     using Row = typename GradientRows<dim>::Row;
-
-    /// Where a bond pulls its ends, and where it feels the gradients there.
-    template <int dim>
-    struct BondDirections
-    {
-      dealii::Tensor<1, dim> bond, pull, near, far;
-    };
 
     /// dr/du of a bond and the difference p_j - p_i, by column.
     template <int dim>
@@ -97,30 +92,6 @@ namespace perideal
       std::vector<double>                 differences;
       std::vector<LocalIndex>             place;
     };
-
-    /// The block of two columns of a cell's energy.
-    template <int dim>
-    dealii::Tensor<2, dim> block_of(const Row<dim>                        &row,
-                                    const std::size_t                      k,
-                                    const std::size_t                      m,
-                                    const double                           volume,
-                                    const dealii::SymmetricTensor<2, dim> &inverse_moment,
-                                    const dealii::SymmetricTensor<4, dim> &stiffness)
-    {
-      dealii::Tensor<2, dim> result, product;
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int b = 0; b < dim; ++b)
-          {
-            if (row.n_patterns > 1 || (a == 0 && b == 0))
-              product =
-                volume * outer_product(row.gradient_of(a)[k], row.gradient_of(b)[m]) +
-                transpose(row.moment_of(a)[k]) * dealii::Tensor<2, dim>(inverse_moment) * row.moment_of(b)[m];
-            for (unsigned int l = 0; l < dim; ++l)
-              for (unsigned int n = 0; n < dim; ++n)
-                result[a][b] += stiffness[a][l][b][n] * product[l][n];
-          }
-      return result;
-    }
   } // namespace
 
   template <int dim>
@@ -134,13 +105,35 @@ namespace perideal
   }
 
   template <int dim>
+  template <typename Visit>
+  void ConsistentOperator<dim>::visit_bonds_of(const LocalIndex i, const Visit &visit) const
+  {
+    const BondList &list = bonds->list();
+    for (BondIndex k = list.row[i]; k < list.row[i + 1]; ++k)
+      {
+        const LocalIndex j = list.neighbour[k];
+        // A bond that the partition cuts is that of the rank of its lower end.
+        if (bonds->stiffness(k) == 0. || families->global_number(j) < families->global_number(i))
+          continue;
+        const dealii::Tensor<1, dim> bond = bonds->bond(i, j);
+        if (deformed)
+          visit(
+            j,
+            BondDirections<dim>{
+              bond, deformed->bond(i, j), deformed->deformation(i) * bond, deformed->deformation(j) * bond},
+            k);
+        else
+          visit(j, BondDirections<dim>{bond, bond, bond, bond}, k);
+      }
+  }
+
+  template <int dim>
   template <typename VisitCell, typename VisitBond>
   void ConsistentOperator<dim>::visit_rows(const GradientRows<dim> &rows,
                                            const VisitCell         &visit_cell,
                                            const VisitBond         &visit_bond) const
   {
     const LocalIndex n_owned = families->n_owned();
-    const BondList  &list    = bonds->list();
     // Rows are made when a bond first reaches them, and dropped when all of their bonds are done.
     std::vector<std::unique_ptr<Row<dim>>> kept(n_owned);
     const auto                             row_of = [&](const LocalIndex i) -> const Row<dim>                             &{
@@ -160,35 +153,13 @@ namespace perideal
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
         const Row<dim> &near = row_of(i);
-        for (BondIndex k = list.row[i]; k < list.row[i + 1]; ++k)
-          {
-            const LocalIndex j = list.neighbour[k];
-            // A bond that the partition cuts is that of the rank of its lower end.
-            if (bonds->stiffness(k) == 0. || families->global_number(j) < families->global_number(i))
-              continue;
-            const dealii::Tensor<1, dim> bond = bonds->bond(i, j);
-            if (deformed)
-              of_bond.compute({bond,
-                               deformed->bond(i, j),
-                               deformed->deformation(i) * bond,
-                               deformed->deformation(j) * bond},
-                              near,
-                              row_of(j));
-            else
-              of_bond.compute({bond, bond, bond, bond}, near, row_of(j));
-            visit_bond(bonds->stiffness(k), deformed ? deformed->tension(k) : 0., of_bond);
-          }
+        visit_bonds_of(i,
+                       [&](const LocalIndex j, const BondDirections<dim> &directions, const BondIndex slot) {
+                         of_bond.compute(directions, near, row_of(j));
+                         visit_bond(bonds->stiffness(slot), deformed ? deformed->tension(slot) : 0., of_bond);
+                       });
         kept[i].reset();
       }
-  }
-
-  template <int dim>
-  dealii::SymmetricTensor<2, dim> ConsistentOperator<dim>::inverse_moment_of(const LocalIndex i) const
-  {
-    dealii::SymmetricTensor<2, dim> result;
-    for (unsigned int p = 0; p < n_pairs; ++p)
-      result[Symmetric::axes(p).first][Symmetric::axes(p).second] = inverse_moment[i][p];
-    return result;
   }
 
   template <int dim>
@@ -202,30 +173,51 @@ namespace perideal
         visit([&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, row, k, m); });
         return;
       }
-    const double volume  = moments->cell_polynomials().volumes()[i];
-    const auto   inverse = inverse_moment_of(i);
-    visit([&](const std::size_t k, const std::size_t m) {
-      return perideal::block_of<dim>(row, k, m, volume, inverse, stiffness_of(i));
-    });
+    CellEnergy<dim> energy{moments->cell_polynomials().volumes()[i], {}, tensors[solid_of_node[i]]};
+    for (unsigned int p = 0; p < n_pairs; ++p)
+      {
+        const auto [a, b]           = Symmetric::axes(p);
+        energy.inverse_moment[a][b] = energy.inverse_moment[b][a] = inverse_moment[i][p];
+      }
+    visit([&](const std::size_t k, const std::size_t m) { return energy.block_of(row, k, m); });
   }
 
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
   {
+    using Ends                               = typename BondBlocks<dim>::Ends;
+    const LocalIndex                    n    = families->n_owned();
     const GradientRows<dim>             rows = make_rows();
     std::vector<dealii::Tensor<2, dim>> blocks(rows.n_columns());
-    visit_rows(
-      rows,
-      [&](const LocalIndex i, const Row<dim> &row) {
-        visit_blocks(i, row, [&](const auto &block) {
-          for (std::size_t k = 0; k < row.column.size(); ++k)
-            blocks[row.column[k]] += block(k, k);
-        });
-      },
-      [&](const double stiffness, const double tension, const BondRow<dim> &bond) {
-        for (std::size_t k = 0; k < bond.columns.size(); ++k)
-          blocks[bond.columns[k]] += bond.block_of(k, k, stiffness, tension);
-      });
+    BondBlocks<dim>                     of_bonds(blocks);
+    // Kept from the first bond that reaches a cell to its last.
+    std::vector<std::unique_ptr<Ends>> kept(families->n_local());
+    Row<dim>                           row;
+    const auto                         ends_of = [&](const LocalIndex i) -> const Ends                         &{
+      if (kept[i])
+        return *kept[i];
+      if (i < n)
+        {
+          rows.compute(i, row);
+          visit_blocks(i, row, [&](const auto &block) {
+            for (std::size_t k = 0; k < row.column.size(); ++k)
+              blocks[row.column[k]] += block(k, k);
+          });
+        }
+      kept[i] = std::make_unique<Ends>(i < n ? row : rows.at(families->global_number(i)));
+      return *kept[i];
+    };
+    for (LocalIndex i = 0; i < n; ++i)
+      {
+        of_bonds.start(ends_of(i));
+        visit_bonds_of(
+          i, [&](const LocalIndex j, const BondDirections<dim> &directions, const BondIndex slot) {
+            of_bonds.add(
+              directions, bonds->stiffness(slot), deformed ? deformed->tension(slot) : 0., ends_of(j));
+          });
+        of_bonds.finish();
+        kept[i].reset();
+      }
     return rows.sum_to_owners(blocks);
   }
 

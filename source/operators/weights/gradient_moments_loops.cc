@@ -12,8 +12,8 @@ namespace perideal
 {
   namespace
   {
-    /// Faces between the one that is summed and that whose cells are asked for: the second cell of a face lies
-    /// anywhere in memory.
+    /// Faces between the one that is summed and that whose cells are asked for: the second cell of a face
+    /// lies anywhere in memory.
     constexpr std::size_t n_ahead = 4;
 
     PERIDEAL_INLINE void prefetch(const NodeRecord *records, const unsigned int n)
@@ -21,21 +21,16 @@ namespace perideal
       for (unsigned int k = 0; k < n; k += 2)
         __builtin_prefetch(records + k);
     }
-  } // namespace
 
-  template <int dim>
-  void GradientMoments<dim>::prefetch_face(const std::size_t f) const
-  {
-    if (f >= n_inner_faces)
-      return;
-    const LocalIndex i = faces_of_cells[f].cell[1];
-    prefetch(work.polynomial.data() + n_coefficients * i, n_coefficients);
-    if (i < n_owned_cells)
-      {
-        prefetch(gradient(i), dim);
-        prefetch(moment(i), dim * dim);
-      }
-  }
+    template <int dim, typename Work>
+    PERIDEAL_INLINE void prefetch_cell(const Work &work, const LocalIndex i)
+    {
+      constexpr unsigned int n = Monomials<dim>::n_coefficients;
+      prefetch(work.polynomial.data() + n * i, n);
+      prefetch(work.gradient.data() + dim * i, dim);
+      prefetch(work.moment.data() + dim * dim * i, dim * dim);
+    }
+  } // namespace
 
   template <int dim>
   void GradientMoments<dim>::read_polynomials(const NodalVector &displacement) const
@@ -104,7 +99,8 @@ namespace perideal
     auto next = held.begin();
     for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
       {
-        prefetch_face(f + n_ahead);
+        if (f + n_ahead < n_inner_faces)
+          prefetch_cell<dim>(work, faces_of_cells[f + n_ahead].cell[1]);
         const Face   &face                       = faces_of_cells[f];
         const bool    is_inner                   = f < n_inner_faces;
         Lanes         polynomial[n_coefficients] = {};
@@ -193,7 +189,8 @@ namespace perideal
     auto next = held.begin();
     for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
       {
-        prefetch_face(f + n_ahead);
+        if (f + n_ahead < n_inner_faces)
+          prefetch_cell<dim>(work, faces_of_cells[f + n_ahead].cell[1]);
         const Face        &face    = faces_of_cells[f];
         const unsigned int n_sides = f < n_inner_faces ? 2 : 1;
         FaceSums<dim>      sums    = {};

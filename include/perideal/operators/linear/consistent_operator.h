@@ -76,6 +76,9 @@ namespace perideal
 
     /// Rows of the gradients, with those of the ghosts that bonds reach. Collective.
     GradientRows<dim> make_rows() const;
+    /// Calls visit(j, directions, slot) for the bonds of an owned cell that are this rank's, each once.
+    template <typename Visit>
+    void visit_bonds_of(const LocalIndex i, const Visit &visit) const;
     /// Calls visit_cell(i, row) for owned cells and visit_bond(b, tension, row of the bond) for the bonds of
     /// this rank, each once.
     template <typename VisitCell, typename VisitBond>
@@ -86,20 +89,14 @@ namespace perideal
     void
     visit_blocks(const LocalIndex i, const typename GradientRows<dim>::Row &row, const Visit &visit) const;
 
-    dealii::SymmetricTensor<2, dim>        inverse_moment_of(const LocalIndex i) const;
-    const dealii::SymmetricTensor<4, dim> &stiffness_of(const LocalIndex i) const
-    {
-      return tensors[solid_of_node[i]];
-    }
-
     std::shared_ptr<const Families<dim>>        families;
     std::shared_ptr<const GradientMoments<dim>> moments;
     std::shared_ptr<ConsistentBonds<dim>>       bonds;
 
     /// C as a matrix on strain pairs [Pa], by number and by owned node of it.
-    std::vector<std::array<Pairs, n_pairs>>      solids;
-    std::vector<dealii::SymmetricTensor<4, dim>> tensors;
-    std::vector<LocalIndex>                      solid_of_node;
+    std::vector<std::array<Pairs, n_pairs>> solids;
+    std::vector<dealii::Tensor<4, dim>>     tensors;
+    std::vector<LocalIndex>                 solid_of_node;
     /// Inverse of int (x - x_i) (x) (x - x_i) [1/m^5], by owned node.
     std::vector<Pairs> inverse_moment;
 

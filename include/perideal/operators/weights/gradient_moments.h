@@ -135,7 +135,6 @@ namespace perideal
     void collect_held();
 
     void read_polynomials(const NodalVector &displacement) const;
-    void prefetch_face(const std::size_t f) const;
     void sum_over_faces(const AtFaces at_faces) const;
     void spread_to_faces() const;
     void spread_to_nodes(NodalVector &force) const;
