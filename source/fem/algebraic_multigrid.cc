@@ -83,7 +83,8 @@ namespace perideal
 
   template <int dim>
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const unsigned int finest_sweeps)
-    : AlgebraicMultigrid(fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), finest_sweeps)
+    : AlgebraicMultigrid(
+        fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), finest_sweeps)
   {
   }
 
@@ -92,7 +93,7 @@ namespace perideal
                                               const dealii::DoFHandler<dim>                &unknowns,
                                               const dealii::AffineConstraints<double>      &constraints,
                                               const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                                              const bool                                    finest_sweeps)
+                                              const unsigned int                            finest_sweeps)
     : implementation(std::make_unique<Implementation>(matrix))
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
