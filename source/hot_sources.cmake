@@ -16,6 +16,7 @@ set(hot_sources
   reconstruction/face_gradient.cc
   reconstruction/face_moments.cc
   reconstruction/linear_interpolation.cc
+  reconstruction/polynomial_closure.cc
   reconstruction/quadratic_fit.cc
   operators/weights/consistent_bonds.cc
   operators/weights/correspondence_rows.cc

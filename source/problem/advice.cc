@@ -199,16 +199,16 @@ namespace perideal
         }
     }
 
-    /// Two layers of cells do not determine the curvature across them: with a Poisson's ratio bending is held
-    /// in plane strain there, by 1/(1-nu^2).
+    /// Two layers of cells do not determine the curvature across them: where it is not closed
+    /// (PolynomialClosure), bending with a Poisson's ratio is held in plane strain there, by 1/(1-nu^2).
     template <int dim>
     void warn_of_two_layers(const Problem<dim> &problem, std::vector<std::string> &result)
     {
       const auto &polynomials = problem.discretisation.gradients.polynomials;
       if (!polynomials)
         return;
-      const GlobalIndex n_incomplete =
-        dealii::Utilities::MPI::sum<GlobalIndex>(polynomials->n_incomplete(), problem.run.communicator);
+      const GlobalIndex n_incomplete = dealii::Utilities::MPI::sum<GlobalIndex>(
+        polynomials->n_incomplete() - polynomials->closure().cells().size(), problem.run.communicator);
       const GlobalIndex n_two = n_incomplete - problem.discretisation.counts.singular;
       double            ratio = 0;
       for (const auto &solid : problem.body.solids)

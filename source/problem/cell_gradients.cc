@@ -3,6 +3,7 @@
 #include <perideal/boundary/nodal_strain.h>
 #include <perideal/materials/models.h>
 #include <perideal/problem/cell_gradients.h>
+#include <perideal/problem/discrete_body.h>
 
 namespace perideal
 {
@@ -20,7 +21,12 @@ namespace perideal
         linear = std::make_shared<const FaceGradient<dim>>(*body.mesh, *body.nodes, stiffness);
         return;
       }
-    polynomials = std::make_shared<const CellPolynomials<dim>>(*body.mesh, *body.nodes);
+    // Polynomials are closed by the directions of the body at rest, which large rotations leave.
+    const auto                               solid_of = solids_of_model(body);
+    typename CellPolynomials<dim>::Stiffness of_closure;
+    if (model.law->is_linear)
+      of_closure = [&](const dealii::types::material_id id) { return solid_of(id).stiffness(); };
+    polynomials = std::make_shared<const CellPolynomials<dim>>(*body.mesh, *body.nodes, of_closure);
     faces       = std::make_shared<const FaceMoments<dim>>(*body.mesh, polynomials->graph(), stiffness);
   }
 

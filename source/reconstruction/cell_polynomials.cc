@@ -9,6 +9,7 @@
 #include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
+#include <map>
 
 namespace perideal
 {
@@ -85,9 +86,10 @@ namespace perideal
     using Cell    = typename CellGraph<dim>::Cell;
     using Stencil = std::vector<LocalIndex>;
 
-    explicit Builder(CellPolynomials &result)
+    Builder(CellPolynomials &result, const Stiffness &stiffness)
       : result(result)
       , graph(result.cells)
+      , stiffness(stiffness)
     {
     }
 
@@ -98,15 +100,7 @@ namespace perideal
       Stencil stencil = near(cell);
       fit_to(stencil);
       if (!fit.is_complete())
-        {
-          const unsigned int n_determined = fit.n_determined();
-          const Stencil      wider        = with_ring(cell, stencil);
-          fit_to(wider);
-          if (fit.n_determined() > n_determined)
-            stencil = wider;
-          else
-            fit_to(stencil);
-        }
+        complete(cell, stencil);
       result.is_deficient[node] = !fit.is_solid();
       result.n_incomplete_cells += !fit.is_complete();
       for (const LocalIndex k : stencil)
@@ -117,6 +111,26 @@ namespace perideal
     }
 
   private:
+    /// Takes one ring more where that helps, and closes what is left out.
+    void complete(const Cell &cell, Stencil &stencil)
+    {
+      // A wider stencil of a thin body sees how it is curved and no more.
+      const auto surfaces = ends(cell);
+      if (!stiffness || !fit.is_solid() || !fit.misses_only_across(surfaces))
+        {
+          const unsigned int n_determined = fit.n_determined();
+          const Stencil      wider        = with_ring(cell, stencil);
+          fit_to(wider);
+          if (fit.n_determined() > n_determined)
+            stencil = wider;
+          else
+            fit_to(stencil);
+        }
+      if (stiffness && fit.is_solid() && !fit.is_complete())
+        result.closures.add(
+          node, fit.undetermined(), fit.squares_across(surfaces), result.moments[node], stiffness_here());
+    }
+
     /// The cells around a cell, and around those behind it.
     Stencil near(const Cell &cell) const
     {
@@ -137,6 +151,31 @@ namespace perideal
       bool result = cell->at_boundary(f);
       visit_beyond(cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
       return result;
+    }
+
+    /// Area vectors of the faces of a cell where the body or its material ends.
+    std::vector<dealii::Tensor<1, dim>> ends(const Cell &cell) const
+    {
+      std::vector<dealii::Tensor<1, dim>> areas;
+      for (const unsigned int f : cell->face_indices())
+        if (ends_at(cell, f))
+          {
+            const auto &face = cell->face(f);
+            if constexpr (dim == 2)
+              areas.push_back(dealii::cross_product_2d(face->vertex(1) - face->vertex(0)));
+            else
+              areas.push_back(0.5 * dealii::cross_product_3d(face->vertex(3) - face->vertex(0),
+                                                             face->vertex(2) - face->vertex(1)));
+          }
+      return areas;
+    }
+
+    const dealii::SymmetricTensor<4, dim> &stiffness_here()
+    {
+      const auto id       = graph.material[node];
+      const auto existing = stiffness_of.find(id);
+      return existing != stiffness_of.end() ? existing->second :
+                                              stiffness_of.emplace(id, stiffness(id)).first->second;
     }
 
     template <typename Visit>
@@ -192,13 +231,18 @@ namespace perideal
 
     CellPolynomials                              &result;
     const CellGraph<dim>                         &graph;
+    const Stiffness                              &stiffness;
     LocalIndex                                    node = 0;
     QuadraticFit<dim>                             fit;
     std::vector<typename QuadraticFit<dim>::Cell> others;
+
+    std::map<dealii::types::material_id, dealii::SymmetricTensor<4, dim>> stiffness_of;
   };
 
   template <int dim>
-  CellPolynomials<dim>::CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes)
+  CellPolynomials<dim>::CellPolynomials(const Mesh<dim>  &mesh,
+                                        const Nodes<dim> &nodes,
+                                        const Stiffness  &stiffness)
     : cells(mesh, nodes, GhostLayers::two)
     , moments(nodes.size())
     , centroid(nodes.size())
@@ -222,7 +266,7 @@ namespace perideal
     row.reserve(nodes.size() + 1);
     column.reserve(n_entries);
     coefficient.reserve(n_entries);
-    Builder builder(*this);
+    Builder builder(*this, stiffness);
     for (const auto &cell : cell_of_node)
       builder.add(cell);
     cells.forget_layers();
@@ -234,7 +278,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(row) + memory_consumption(column) + coefficient.size() * sizeof(Terms) +
            moments.size() * sizeof(moments[0]) + memory_consumption(centroid) + memory_consumption(volume) +
-           cells.memory_consumption();
+           cells.memory_consumption() + closures.memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(CellPolynomials)

@@ -10,9 +10,9 @@ namespace perideal
   namespace
   {
     /// Directions of quadratics whose singular value is below this part of the mean one are left out.
-    /// Stencils that determine them have 0.27 and more, distorted or not; two layers of distorted cells 0.08
-    /// at most.
-    constexpr double tolerance = 0.15;
+    /// Stencils that determine them have 0.25 and more, distorted or not; two layers of distorted cells 0.08
+    /// at most, and 0.2 where they lie along an arc of 4 degrees a cell.
+    constexpr double tolerance = 0.2;
     /// Scales mixed quadratics, so that what is determined does not depend on the axes.
     const double root_2 = std::sqrt(2.);
 
@@ -94,18 +94,21 @@ namespace perideal
         if (inverse.norm() * smallest < 1.)
           {
             n_kept = n_quadratic;
+            dropped.resize(n_quadratic, 0);
             return inverse;
           }
       }
     const Eigen::SelfAdjointEigenSolver<Quadratic> spectrum(gram);
     Quadratic                                      result = Quadratic::Zero();
     n_kept                                                = 0;
+    // Eigenvalues increase.
     for (unsigned int k = 0; k < n_quadratic; ++k)
       if (const double value = spectrum.eigenvalues()[k]; value > smallest)
         {
           result += spectrum.eigenvectors().col(k) * spectrum.eigenvectors().col(k).transpose() / value;
           ++n_kept;
         }
+    dropped = spectrum.eigenvectors().leftCols(n_quadratic - n_kept);
     return result;
   }
 
@@ -119,37 +122,97 @@ namespace perideal
     for (int d = 0; d < dim; ++d)
       if (normal(d, d) == 0.)
         normal(d, d) = 1.;
-    const Metric                                  inverse = normal.inverse();
-    const Eigen::Matrix<double, dim, n_quadratic> shift   = inverse * (linear.transpose() * quadratic);
+    const Metric inverse = normal.inverse();
+    shift                = inverse * (linear.transpose() * quadratic);
     // Gram matrix of what linear terms leave of the quadratics.
     Quadratic    gram = quadratic.transpose() * quadratic;
     const double size = std::sqrt(gram.trace());
     gram -= (linear.transpose() * quadratic).transpose() * shift;
     const Quadratic inverse_gram = inverse_of(gram, size);
 
-    // Coefficients of the images y to those of x: c = metric^T c_y, Hessian metric^T H_y metric.
     result.resize(rows_of_means.rows());
     for (Eigen::Index k = 0; k < rows_of_means.rows(); ++k)
       {
-        const Eigen::Matrix<double, dim, 1>         l = linear.row(k).transpose();
-        const Eigen::Matrix<double, n_quadratic, 1> q =
-          inverse_gram * (quadratic.row(k).transpose() - shift.transpose() * l);
-        const Eigen::Matrix<double, dim, 1> of_x = metric.transpose() * (inverse * l - shift * q);
-        Metric                              hessian;
-        for (unsigned int p = 0; p < n_quadratic; ++p)
-          {
-            const auto [a, b] = SymmetricPairs<dim>::axes(p);
-            hessian(a, b) = hessian(b, a) = (a == b ? 2. : root_2) * q[p];
-          }
-        hessian = metric.transpose() * hessian * metric;
-        for (int d = 0; d < dim; ++d)
-          result[k][d] = weight[k] * of_x[d];
-        for (unsigned int p = 0; p < n_quadratic; ++p)
-          {
-            const auto [a, b]  = SymmetricPairs<dim>::axes(p);
-            result[k][dim + p] = weight[k] * (a == b ? 0.5 : 1.) * hessian(a, b);
-          }
+        const LinearTerms    l = linear.row(k).transpose();
+        const QuadraticTerms q = inverse_gram * (quadratic.row(k).transpose() - shift.transpose() * l);
+        result[k]              = terms_of_x(inverse * l - shift * q, q);
+        for (double &term : result[k])
+          term *= weight[k];
       }
+  }
+
+  template <int dim>
+  typename QuadraticFit<dim>::Terms QuadraticFit<dim>::terms_of_x(const LinearTerms    &linear,
+                                                                  const QuadraticTerms &quadratic) const
+  {
+    // Coefficients of the images y to those of x: c = metric^T c_y, Hessian metric^T H_y metric.
+    const LinearTerms of_x = metric.transpose() * linear;
+    Metric            hessian;
+    for (unsigned int p = 0; p < n_quadratic; ++p)
+      {
+        const auto [a, b] = SymmetricPairs<dim>::axes(p);
+        hessian(a, b) = hessian(b, a) = (a == b ? 2. : root_2) * quadratic[p];
+      }
+    hessian = metric.transpose() * hessian * metric;
+    Terms terms;
+    for (int d = 0; d < dim; ++d)
+      terms[d] = of_x[d];
+    for (unsigned int p = 0; p < n_quadratic; ++p)
+      {
+        const auto [a, b] = SymmetricPairs<dim>::axes(p);
+        terms[dim + p]    = (a == b ? 0.5 : 1.) * hessian(a, b);
+      }
+    return terms;
+  }
+
+  template <int dim>
+  std::vector<typename QuadraticFit<dim>::Terms> QuadraticFit<dim>::undetermined() const
+  {
+    std::vector<Terms> polynomials;
+    for (Eigen::Index k = 0; k < dropped.cols(); ++k)
+      polynomials.push_back(terms_of_x(-shift * dropped.col(k), dropped.col(k)));
+    return polynomials;
+  }
+
+  template <int dim>
+  typename QuadraticFit<dim>::Quadratic
+  QuadraticFit<dim>::squares_of(const std::vector<dealii::Tensor<1, dim>> &surfaces) const
+  {
+    // Normals transform as gradients do.
+    const Metric    of_normals = metric.inverse().transpose();
+    const Quadratic projection = dropped * dropped.transpose();
+    Quadratic       sum        = Quadratic::Zero();
+    for (const auto &surface : surfaces)
+      {
+        const LinearTerms normal = (of_normals * to_eigen(surface)).normalized();
+        QuadraticTerms    square;
+        for (unsigned int p = 0; p < n_quadratic; ++p)
+          square[p] = (p < dim ? 1. : root_2) * normal[SymmetricPairs<dim>::axes(p).first] *
+                      normal[SymmetricPairs<dim>::axes(p).second];
+        if (square.dot(projection * square) > 0.5)
+          sum += square * square.transpose() / surfaces.size();
+      }
+    return sum;
+  }
+
+  template <int dim>
+  bool QuadraticFit<dim>::misses_only_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const
+  {
+    const Eigen::MatrixXd shares = dropped.transpose() * squares_of(surfaces) * dropped;
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(shares).eigenvalues().minCoeff() >
+           0.2 / surfaces.size();
+  }
+
+  template <int dim>
+  std::vector<typename QuadraticFit<dim>::Terms>
+  QuadraticFit<dim>::squares_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const
+  {
+    const Eigen::SelfAdjointEigenSolver<Quadratic> spectrum(squares_of(surfaces) +
+                                                            1e-3 * dropped * dropped.transpose());
+    std::vector<Terms>                             squares;
+    for (Eigen::Index k = 0; k < dropped.cols(); ++k)
+      squares.push_back(terms_of_x(LinearTerms::Zero(), spectrum.eigenvectors().col(n_quadratic - 1 - k)));
+    return squares;
   }
 
   template <int dim>

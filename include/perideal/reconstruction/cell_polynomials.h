@@ -3,11 +3,12 @@
 #define perideal_reconstruction_cell_polynomials_h
 
 #include <perideal/nodes/cell_graph.h>
-#include <perideal/reconstruction/monomials.h>
+#include <perideal/reconstruction/polynomial_closure.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace perideal
@@ -27,7 +28,7 @@ namespace perideal
    * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies
    * at the boundary or at another material, those around the cell behind it. Where they do not determine all
    * quadratics it takes one ring more; what no ring determines is left out: linear terms are fitted first,
-   * quadratics to what these leave.
+   * quadratics to what these leave. closure() says what a displacement has in its place.
    *
    * Nodes are numbered as in the cell graph.
    */
@@ -37,9 +38,12 @@ namespace perideal
   public:
     static constexpr unsigned int n_terms = Monomials<dim>::n_terms;
     using Terms                           = std::array<double, n_terms>;
+    /// Stiffness of a material [Pa].
+    using Stiffness = std::function<dealii::SymmetricTensor<4, dim>(dealii::types::material_id)>;
 
     /// Collective.
-    CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes);
+    /// @param stiffness of displacements whose polynomials are closed; without it, none is
+    CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const Stiffness &stiffness = {});
 
     const CellGraph<dim> &graph() const { return cells; }
 
@@ -88,6 +92,9 @@ namespace perideal
     /// Owned cells whose stencil does not determine all quadratics, those included.
     LocalIndex n_incomplete() const { return n_incomplete_cells; }
 
+    /// What the polynomials of a displacement have besides.
+    const PolynomialClosure<dim> &closure() const { return closures; }
+
     std::size_t memory_consumption() const;
 
   private:
@@ -102,6 +109,7 @@ namespace perideal
     std::vector<Terms>                           coefficient;
     std::vector<bool>                            is_deficient;
     LocalIndex                                   n_incomplete_cells = 0;
+    PolynomialClosure<dim>                       closures;
   };
 } // namespace perideal
 

@@ -26,6 +26,7 @@ namespace perideal
   {
   public:
     static constexpr unsigned int n_terms = Monomials<dim>::n_terms;
+    using Terms                           = std::array<double, n_terms>;
 
     /// A cell of the stencil: distance of its centroid from that of the cell in the middle [m], mean of the
     /// squares of distances from its own [m^2].
@@ -47,25 +48,52 @@ namespace perideal
 
     /// What the mean of each other cell over that in the middle adds to the coefficients of the monomials
     /// [1/m], [1/m^2].
-    const std::vector<std::array<double, n_terms>> &rows() const { return result; }
+    const std::vector<Terms> &rows() const { return result; }
+
+    /// Returns the polynomials without a constant that the fit leaves out, of which the means say nothing or
+    /// too little, as coefficients of the monomials; n_quadratic - n_determined() of them that are
+    /// independent. Of a body two cells thick, (x - s).n (x - t).n between middles s and t of the layers.
+    std::vector<Terms> undetermined() const;
+
+    /// Whether all that is left out is accounted for by squares of distances along the normals of surfaces:
+    /// the body is two cells thick there.
+    /// @param surfaces area vectors or normals, either sign
+    bool misses_only_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const;
+
+    /// Returns such squares as coefficients of the monomials, as many as there are undetermined()
+    /// polynomials and those that are nearest to them. Where there are fewer, quadratic parts of undetermined
+    /// polynomials stand in their place.
+    std::vector<Terms> squares_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const;
 
   private:
     static constexpr unsigned int n_quadratic = Monomials<dim>::n_quadratic;
     using Metric                              = Eigen::Matrix<double, dim, dim>;
-    using Rows      = Eigen::Matrix<double, Eigen::Dynamic, n_terms, Eigen::RowMajor>;
-    using Quadratic = Eigen::Matrix<double, n_quadratic, n_quadratic>;
+    using Rows           = Eigen::Matrix<double, Eigen::Dynamic, n_terms, Eigen::RowMajor>;
+    using Quadratic      = Eigen::Matrix<double, n_quadratic, n_quadratic>;
+    using LinearTerms    = Eigen::Matrix<double, dim, 1>;
+    using QuadraticTerms = Eigen::Matrix<double, n_quadratic, 1>;
+    /// At most n_quadratic columns.
+    using Directions =
+      Eigen::Matrix<double, n_quadratic, Eigen::Dynamic, Eigen::ColMajor, n_quadratic, n_quadratic>;
 
     void      find_metric(const std::vector<Cell> &others);
     void      fill_rows(const dealii::SymmetricTensor<2, dim> &own, const std::vector<Cell> &others);
     Quadratic inverse_of(const Quadratic &gram, const double size);
     void      solve();
+    /// Mean of q (x) q over the squares q that are nearer to what is left out than to the other quadratics.
+    Quadratic squares_of(const std::vector<dealii::Tensor<1, dim>> &surfaces) const;
+    /// Coefficients of the monomials of x to those of their images, mixed ones scaled by the root of two.
+    Terms terms_of_x(const LinearTerms &linear, const QuadraticTerms &quadratic) const;
 
-    Metric                                   metric;
-    Rows                                     rows_of_means;
-    Eigen::VectorXd                          weight;
-    std::vector<std::array<double, n_terms>> result;
-    bool                                     solid  = false;
-    unsigned int                             n_kept = 0;
+    Metric             metric;
+    Rows               rows_of_means;
+    Eigen::VectorXd    weight;
+    std::vector<Terms> result;
+    bool               solid  = false;
+    unsigned int       n_kept = 0;
+    /// Linear terms that go with quadratics, and the quadratics that are left out.
+    Eigen::Matrix<double, dim, n_quadratic> shift;
+    Directions                              dropped;
   };
 } // namespace perideal
 

@@ -77,8 +77,12 @@ namespace perideal
                 differences.push_back(0.);
               }
             differences[at] += sign * row.value[k];
+            if (row.is_closed())
+              for (int b = 0; b < dim; ++b)
+                values[at][b] += sign * (directions.pull * row.value_by(k, b)) -
+                                 0.5 * (end * (row.gradient_by(k, b) * directions.bond));
             double along = 0;
-            for (int a = 0; a < dim; ++a)
+            for (int a = 0; a < dim && !row.is_closed(); ++a)
               {
                 if (a == 0 || row.n_patterns > 1)
                   along = directions.bond * row.gradient_of(a)[k];
@@ -144,8 +148,7 @@ namespace perideal
           kept[i] = std::make_unique<Row<dim>>();
           rows.compute(i, *kept[i]);
           visit_cell(i, *kept[i]);
-          for (auto &moment : kept[i]->moment)
-            moment = {};
+          kept[i]->forget_moments();
         }
       return *kept[i];
     };
@@ -190,12 +193,17 @@ namespace perideal
     const GradientRows<dim>             rows = make_rows();
     std::vector<dealii::Tensor<2, dim>> blocks(rows.n_columns());
     BondBlocks<dim>                     of_bonds(blocks);
-    // Kept from the first bond that reaches a cell to its last.
-    std::vector<std::unique_ptr<Ends>> kept(families->n_local());
-    Row<dim>                           row;
-    const auto                         ends_of = [&](const LocalIndex i) -> const Ends                         &{
-      if (kept[i])
-        return *kept[i];
+    // Kept from the first bond that reaches a cell to its last; closed rows whole.
+    struct Kept
+    {
+      std::unique_ptr<Ends>     ends;
+      std::unique_ptr<Row<dim>> closed;
+    };
+    std::vector<Kept> kept(families->n_local());
+    Row<dim>          row;
+    const auto        make = [&](const LocalIndex i) -> const Kept        &{
+      if (kept[i].ends)
+        return kept[i];
       if (i < n)
         {
           rows.compute(i, row);
@@ -203,20 +211,42 @@ namespace perideal
             for (std::size_t k = 0; k < row.column.size(); ++k)
               blocks[row.column[k]] += block(k, k);
           });
+          row.forget_moments();
         }
-      kept[i] = std::make_unique<Ends>(i < n ? row : rows.at(families->global_number(i)));
-      return *kept[i];
+      const Row<dim> &made = i < n ? row : rows.at(families->global_number(i));
+      kept[i].ends         = std::make_unique<Ends>(made);
+      if (made.is_closed())
+        kept[i].closed = std::make_unique<Row<dim>>(made);
+      return kept[i];
+    };
+    BondRow<dim> of_bond(rows.n_columns());
+    Row<dim>     again[2];
+    // A row that is closed, or that of a cell beside such one.
+    const auto whole_row = [&](const LocalIndex i, Row<dim> &work) -> const Row<dim> & {
+      if (kept[i].closed)
+        return *kept[i].closed;
+      if (i >= n)
+        return rows.at(families->global_number(i));
+      rows.compute(i, work);
+      return work;
     };
     for (LocalIndex i = 0; i < n; ++i)
       {
-        of_bonds.start(ends_of(i));
+        of_bonds.start(*make(i).ends);
         visit_bonds_of(
           i, [&](const LocalIndex j, const BondDirections<dim> &directions, const BondIndex slot) {
-            of_bonds.add(
-              directions, bonds->stiffness(slot), deformed ? deformed->tension(slot) : 0., ends_of(j));
+            const double stiffness = bonds->stiffness(slot);
+            if (make(j).closed || kept[i].closed)
+              {
+                of_bond.compute(directions, whole_row(i, again[0]), whole_row(j, again[1]));
+                for (std::size_t k = 0; k < of_bond.columns.size(); ++k)
+                  blocks[of_bond.columns[k]] += of_bond.block_of(k, k, stiffness, 0.);
+              }
+            else
+              of_bonds.add(directions, stiffness, deformed ? deformed->tension(slot) : 0., *kept[j].ends);
           });
         of_bonds.finish();
-        kept[i].reset();
+        kept[i] = {};
       }
     return rows.sum_to_owners(blocks);
   }

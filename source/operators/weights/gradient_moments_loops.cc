@@ -43,6 +43,8 @@ namespace perideal
     const NodeRecord      *u       = work.displacement.data();
     const auto            &rows    = polynomials->coefficients();
     const auto            &first   = polynomials->first();
+    const auto            &closure = polynomials->closure();
+    auto                   closed  = closure.cells().begin();
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
       {
         Lanes       c[n_terms] = {};
@@ -54,6 +56,8 @@ namespace perideal
             for (unsigned int t = 0; t < n_terms; ++t)
               c[t] += row[t] * difference;
           }
+        if (closed != closure.cells().end() && *closed == i)
+          closure.close(closed++ - closure.cells().begin(), c);
         Lanes      value = own;
         const auto means = polynomials->means(i);
         for (unsigned int p = 0; p < means.size(); ++p)
@@ -224,8 +228,10 @@ namespace perideal
     constexpr unsigned int n_terms = Monomials<dim>::n_terms;
     NodeRecord            *f       = work.displacement.data();
     std::fill(work.displacement.begin(), work.displacement.end(), NodeRecord{});
-    const auto &rows  = polynomials->coefficients();
-    const auto &first = polynomials->first();
+    const auto &rows    = polynomials->coefficients();
+    const auto &first   = polynomials->first();
+    const auto &closure = polynomials->closure();
+    auto        closed  = closure.cells().begin();
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
       {
         const NodeRecord *acting   = work.polynomial.data() + n_coefficients * i;
@@ -237,6 +243,8 @@ namespace perideal
           c[t] = lanes(acting[1 + t]);
         for (unsigned int p = 0; p < means.size(); ++p)
           c[dim + p] += means[p] * (on_trace - on_value);
+        if (closed != closure.cells().end() && *closed == i)
+          closure.add_transposed(closed++ - closure.cells().begin(), c);
         Lanes own = on_value;
         for (BondIndex k = first[i]; k < first[i + 1]; ++k)
           {

@@ -121,6 +121,35 @@ namespace perideal
   }
 
   template <int dim>
+  template <typename Visit>
+  void
+  GradientRows<dim>::visit_maps(const LocalIndex i, const unsigned int component, const Visit &visit) const
+  {
+    const auto visit_with_mean = [&](const LocalIndex node, Map &map) {
+      // The constant is the value at the centroid, of which the mean is the unknown.
+      const auto means = polynomials.means(node);
+      for (unsigned int p = 0; p < means.size(); ++p)
+        for (unsigned int f = 0; f < dim + dim * dim; ++f)
+          map.of[1 + dim + p][f] -= means[p] * map.of[0][f];
+      visit(node, map);
+    };
+    Map own{};
+    for (std::size_t s = first_side[i]; s < first_side[i + 1]; ++s)
+      if (!sides[s].held[component])
+        {
+          const auto &face = face_moments.faces()[sides[s].face];
+          add_map(sides[s], sides[s].side, i, own);
+          if (const LocalIndex other = face.node[1 - sides[s].side]; other != FaceMoments<dim>::none)
+            {
+              Map of_other{};
+              add_map(sides[s], 1 - sides[s].side, i, of_other);
+              visit_with_mean(other, of_other);
+            }
+        }
+    visit_with_mean(i, own);
+  }
+
+  template <int dim>
   void GradientRows<dim>::fill_pattern(const LocalIndex   i,
                                        const unsigned int component,
                                        const unsigned int pattern,
@@ -131,14 +160,8 @@ namespace perideal
     auto &moment   = row.moment[pattern];
     gradient.assign(row.column.size(), {});
     moment.assign(row.column.size(), {});
-    const auto add_polynomial = [&](const LocalIndex node, Map &map) {
-      // The constant is the value at the centroid, of which the mean is the unknown.
-      const auto means = polynomials.means(node);
-      for (unsigned int p = 0; p < M::n_quadratic; ++p)
-        for (unsigned int f = 0; f < dim + dim * dim; ++f)
-          map.of[1 + dim + p][f] -= means[p] * map.of[0][f];
-      const LocalIndex own  = place[node];
-      const auto       give = [&](const LocalIndex at, const std::array<double, dim + dim * dim> &sum) {
+    visit_maps(i, component, [&](const LocalIndex node, const Map &map) {
+      const auto give = [&](const LocalIndex at, const std::array<double, dim + dim * dim> &sum) {
         for (unsigned int l = 0; l < dim; ++l)
           {
             gradient[at][l] += sum[l];
@@ -156,22 +179,8 @@ namespace perideal
         for (unsigned int f = 0; f < dim + dim * dim; ++f)
           at_own[f] -= sum[f];
       });
-      give(own, at_own);
-    };
-    Map own{};
-    for (std::size_t s = first_side[i]; s < first_side[i + 1]; ++s)
-      if (!sides[s].held[component])
-        {
-          const auto &face = face_moments.faces()[sides[s].face];
-          add_map(sides[s], sides[s].side, i, own);
-          if (const LocalIndex other = face.node[1 - sides[s].side]; other != FaceMoments<dim>::none)
-            {
-              Map of_other{};
-              add_map(sides[s], 1 - sides[s].side, i, of_other);
-              add_polynomial(other, of_other);
-            }
-        }
-    add_polynomial(i, own);
+      give(place[node], at_own);
+    });
 
     const double volume = polynomials.volumes()[i];
     const auto   means  = polynomials.means(i);
@@ -192,6 +201,86 @@ namespace perideal
           moment[place[i]][d][d] -= part;
         }
     });
+  }
+
+  template <int dim>
+  dealii::ArrayView<const typename PolynomialClosure<dim>::Direction>
+  GradientRows<dim>::directions_of(const LocalIndex node) const
+  {
+    if (node < polynomials.graph().n_owned())
+      return polynomials.closure().directions(node);
+    const auto &directions = of_ghosts.at(node).directions;
+    return {directions.data(), directions.size()};
+  }
+
+  template <int dim>
+  void GradientRows<dim>::add_closure(const LocalIndex   i,
+                                      const unsigned int component,
+                                      const LocalIndex   node,
+                                      const Map         &map,
+                                      const Direction   &direction,
+                                      Row               &row) const
+  {
+    // What the direction itself gives.
+    const double           volume = polynomials.volumes()[i];
+    dealii::Tensor<1, dim> gradient;
+    dealii::Tensor<2, dim> moment;
+    for (unsigned int t = 0; t < n_terms; ++t)
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          gradient[l] += direction.polynomial[t] * map.of[1 + t][l] / volume;
+          for (unsigned int k = 0; k < dim; ++k)
+            moment[k][l] += direction.polynomial[t] * map.of[1 + t][dim + dim * k + l];
+        }
+    // The value keeps the mean, and the trace is that of the cell's own polynomial.
+    double value = 0, change = trace(moment) / dim;
+    if (node == i)
+      {
+        const auto means = polynomials.means(i);
+        for (unsigned int p = 0; p < means.size(); ++p)
+          value -= means[p] * direction.polynomial[dim + p];
+        change += 2. * volume * value / dim;
+      }
+    for (int d = 0; d < dim; ++d)
+      moment[d][d] -= change;
+
+    for (unsigned int b = 0; b < dim; ++b)
+      {
+        typename Row::Share &share = row.closed[dim * component + b];
+        const auto           give  = [&](const LocalIndex at, const double amount) {
+          share.value[at] += amount * value;
+          share.gradient[at] += amount * gradient;
+          share.moment[at] += amount * moment;
+        };
+        visit_polynomial(node, [&](const LocalIndex column, const Terms &terms) {
+          double amount = 0;
+          for (unsigned int p = 0; p < Monomials<dim>::n_quadratic; ++p)
+            amount += direction.answer[dim * p + b].value[component] * terms[dim + p];
+          give(place[column], amount);
+          give(place[node], -amount);
+        });
+      }
+  }
+
+  template <int dim>
+  void GradientRows<dim>::fill_closures(const LocalIndex i, Row &row) const
+  {
+    bool any = directions_of(i).size() > 0;
+    for (std::size_t s = first_side[i]; s < first_side[i + 1]; ++s)
+      if (const LocalIndex other = face_moments.faces()[sides[s].face].node[1 - sides[s].side];
+          other != FaceMoments<dim>::none)
+        any = any || directions_of(other).size() > 0;
+    for (auto &share : row.closed)
+      {
+        share.value.assign(any ? row.column.size() : 0, 0.);
+        share.gradient.assign(share.value.size(), {});
+        share.moment.assign(share.value.size(), {});
+      }
+    for (unsigned int a = 0; any && a < dim; ++a)
+      visit_maps(i, a, [&](const LocalIndex node, const Map &map) {
+        for (const Direction &direction : directions_of(node))
+          add_closure(i, a, node, map, direction, row);
+      });
   }
 
   template <int dim>
@@ -238,6 +327,7 @@ namespace perideal
         if (like == a)
           fill_pattern(i, a, row.n_patterns++, row);
       }
+    fill_closures(i, row);
     for (const LocalIndex column : row.column)
       place[column] = nowhere;
   }

@@ -39,27 +39,46 @@ namespace perideal
       std::vector<GlobalIndex>         column;
       std::vector<double>              value;
       std::vector<unsigned int>        pattern;
-      std::vector<std::vector<double>> gradient;
+      std::vector<std::vector<double>> gradient, closed_value, closed_gradient;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &column &value &pattern &gradient;
+        archive &column &value &pattern &gradient &closed_value &closed_gradient;
       }
     };
 
-    template <int n>
+    template <int dim>
     struct PackedPolynomial
     {
-      std::vector<GlobalIndex> column;
-      std::vector<double>      row;
+      std::vector<GlobalIndex>                                column;
+      std::vector<double>                                     row;
+      std::vector<typename PolynomialClosure<dim>::Direction> directions;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &column &row;
+        archive &column &row &directions;
       }
     };
+
+    template <int dim>
+    std::vector<double> pack(const std::vector<dealii::Tensor<1, dim>> &vectors)
+    {
+      std::vector<double> result;
+      for (const auto &vector : vectors)
+        result.insert(result.end(), vector.begin_raw(), vector.end_raw());
+      return result;
+    }
+
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>> unpack(const std::vector<double> &numbers)
+    {
+      std::vector<dealii::Tensor<1, dim>> result(numbers.size() / dim);
+      for (std::size_t n = 0; n < dim * result.size(); ++n)
+        result[n / dim][n % dim] = numbers[n];
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -105,12 +124,15 @@ namespace perideal
             const Terms &row = polynomials.coefficients()[k];
             result.row.insert(result.row.end(), row.begin(), row.end());
           }
+        const auto directions = polynomials.closure().directions(i);
+        result.directions.assign(directions.begin(), directions.end());
         return result;
       },
       graph.communicator);
     for (const auto &[number, packed] : received)
       {
         Polynomial &polynomial = of_ghosts[number_of.at(number)];
+        polynomial.directions  = packed.directions;
         for (std::size_t k = 0; k < packed.column.size(); ++k)
           {
             polynomial.column.push_back(column_of(packed.column[k]));
@@ -139,11 +161,11 @@ namespace perideal
         result.value = row.value;
         result.pattern.assign(row.pattern.begin(), row.pattern.end());
         for (unsigned int p = 0; p < row.n_patterns; ++p)
+          result.gradient.push_back(pack(row.gradient[p]));
+        for (const auto &share : row.closed)
           {
-            result.gradient.emplace_back();
-            for (const auto &gradient : row.gradient[p])
-              result.gradient.back().insert(
-                result.gradient.back().end(), gradient.begin_raw(), gradient.end_raw());
+            result.closed_value.push_back(share.value);
+            result.closed_gradient.push_back(pack(share.gradient));
           }
         return result;
       },
@@ -157,13 +179,12 @@ namespace perideal
         row.n_patterns = packed.gradient.size();
         std::copy(packed.pattern.begin(), packed.pattern.end(), row.pattern.begin());
         for (unsigned int p = 0; p < row.n_patterns; ++p)
-          for (std::size_t k = 0; k < row.column.size(); ++k)
-            {
-              dealii::Tensor<1, dim> gradient;
-              for (int l = 0; l < dim; ++l)
-                gradient[l] = packed.gradient[p][dim * k + l];
-              row.gradient[p].push_back(gradient);
-            }
+          row.gradient[p] = unpack<dim>(packed.gradient[p]);
+        for (unsigned int c = 0; c < dim * dim; ++c)
+          {
+            row.closed[c].value    = packed.closed_value[c];
+            row.closed[c].gradient = unpack<dim>(packed.closed_gradient[c]);
+          }
       }
   }
 

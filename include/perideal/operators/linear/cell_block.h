@@ -4,7 +4,10 @@
 
 #include <perideal/operators/weights/gradient_rows.h>
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <array>
 
 namespace perideal
 {
@@ -23,6 +26,8 @@ namespace perideal
     dealii::Tensor<2, dim>
     block_of(const typename GradientRows<dim>::Row &row, const std::size_t k, const std::size_t m) const
     {
+      if (row.is_closed())
+        return closed_block_of(row, k, m);
       dealii::Tensor<2, dim> result, product;
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int b = 0; b < dim; ++b)
@@ -36,6 +41,48 @@ namespace perideal
                 sum += stiffness[a][l][b][n] * product[l][n];
             result[a][b] = sum;
           }
+      return result;
+    }
+
+  private:
+    /// Mean gradient and moments of the gradient.
+    using Strains = std::array<dealii::Tensor<2, dim>, 1 + dim>;
+
+    /// What component b of a column of a closed row makes of them.
+    static Strains
+    strains_by(const typename GradientRows<dim>::Row &row, const std::size_t k, const unsigned int b)
+    {
+      Strains    result;
+      const auto moments = row.moments_by(k, b);
+      result[0]          = row.gradient_by(k, b);
+      std::copy(moments.begin(), moments.end(), result.begin() + 1);
+      return result;
+    }
+
+    /// The same of closed rows, in which all components of a column strain the cell in all components.
+    dealii::Tensor<2, dim> closed_block_of(const typename GradientRows<dim>::Row &row,
+                                           const std::size_t                      k,
+                                           const std::size_t                      m) const
+    {
+      std::array<Strains, dim> stress, strain;
+      for (unsigned int b = 0; b < dim; ++b)
+        {
+          strain[b]          = strains_by(row, m, b);
+          const auto by_near = strains_by(row, k, b);
+          stress[b][0]       = volume * dealii::double_contract<2, 0, 3, 1>(stiffness, by_near[0]);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              dealii::Tensor<2, dim> mean;
+              for (unsigned int d = 0; d < dim; ++d)
+                mean += inverse_moment[c][d] * by_near[1 + d];
+              stress[b][1 + c] = dealii::double_contract<2, 0, 3, 1>(stiffness, mean);
+            }
+        }
+      dealii::Tensor<2, dim> result;
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+          for (unsigned int s = 0; s < 1 + dim; ++s)
+            result[a][b] += dealii::scalar_product(stress[a][s], strain[b][s]);
       return result;
     }
   };
