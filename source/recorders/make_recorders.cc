@@ -7,7 +7,7 @@
 #define PERIDEAL_RECORDERS(recorder)                                                                         \
   recorder(iterations) recorder(energy) recorder(damage) recorder(reactions) recorder(displacements)         \
     recorder(cracks) recorder(areal_forces) recorder(gauges) recorder(finite_elements) recorder(comparison)  \
-      recorder(load_resultants) recorder(boundary_stress) recorder(validity)
+      recorder(load_resultants) recorder(discretisation_error) recorder(boundary_stress) recorder(validity)
 
 namespace perideal
 {
