@@ -281,6 +281,7 @@ namespace perideal
     warn_of_solids(problem, result);
     warn_of_whole_cells(problem, result);
     warn_of_cells(problem, result);
+    warn_of_few_cells(problem, result);
     return result;
   }
 

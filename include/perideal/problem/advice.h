@@ -23,6 +23,11 @@ namespace perideal
   template <int dim>
   void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result);
 
+  /// Adds what forms with families make of parts that are few cells thick, and of irregular cells, with
+  /// figures. Collective.
+  template <int dim>
+  void warn_of_few_cells(const Problem<dim> &problem, std::vector<std::string> &result);
+
   /// What is likely to spoil the result or to stop the solver, one line each. Collective.
   template <int dim>
   std::vector<std::string> warnings(const Problem<dim> &problem);
