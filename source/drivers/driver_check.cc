@@ -1,19 +1,58 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/text.h>
 #include <perideal/drivers/driver.h>
 #include <perideal/output/summary.h>
 #include <perideal/problem/advice.h>
 #include <perideal/problem/description.h>
+#include <perideal/problem/mesh_error.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 
-// Driver: a scene is checked and not solved.
+// Driver: a scene is checked, and no more of it solved than an estimate of the error takes.
 
 namespace perideal
 {
+  namespace
+  {
+    /// What breaks each material.
+    template <int dim>
+    void print_materials(Problem<dim> &problem)
+    {
+      const Body<dim>  &body  = problem.body;
+      const Nodes<dim> &nodes = *body.nodes;
+      auto             &out   = problem.run.screen;
+      for (const auto id : body.mesh->material_ids)
+        {
+          double horizon = 0;
+          for (LocalIndex i = 0; i < nodes.size(); ++i)
+            if (nodes.material[i] == id)
+              horizon = std::max(horizon, nodes.horizon[i]);
+          horizon                           = dealii::Utilities::MPI::max(horizon, problem.run.communicator);
+          const double              stretch = Failure<dim>::critical_stretch(body, id, horizon);
+          const MaterialProperties &data    = body.properties_of(id);
+          out << "material    " << body.mesh->material_name(id) << ": ";
+          if (std::isfinite(stretch))
+            out << "critical stretch " << short_number(stretch) << " at the largest horizon, "
+                << short_number(horizon) << " m\n";
+          else if (const double strength = data.tensile_strength; strength > 0)
+            // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at
+            // r = E G/(2 pi f^2).
+            out << name_of(problem.parameters.material.failure_criterion) << ", " << short_number(strength)
+                << " Pa; at half the largest horizon, " << short_number(0.5 * horizon)
+                << " m, before a crack it stands for a fracture energy of "
+                << short_number(dealii::numbers::PI * horizon * strength * strength /
+                                body.solids.at(id).isotropic().young_modulus)
+                << " J/m^2\n";
+          else
+            out << "no fracture energy given, unbreakable\n";
+        }
+    }
+  } // namespace
+
   template <int dim>
   void Driver<dim>::check()
   {
@@ -38,7 +77,7 @@ namespace perideal
     out << "time step   "
         << (std::isfinite(step) ? short_number(step) + " s is the largest stable one of explicit dynamics\n" :
                                   std::string("none: every node is held, nothing is left that could move\n"));
-    print_materials();
+    print_materials(problem);
     if (!kind.has_motion && !kind.has_iterations)
       {
         problem.discretisation.gradients.make(problem.body);
@@ -48,40 +87,37 @@ namespace perideal
       problem.run.warn(warning);
     if (!kind.has_motion)
       problem.find_motions();
-    out << "nothing was solved" << std::endl;
+    out << (print_error() ? "nothing was written" : "nothing was solved") << std::endl;
   }
 
   template <int dim>
-  void Driver<dim>::print_materials() const
+  bool Driver<dim>::print_error()
   {
-    const Body<dim>  &body  = problem.body;
-    const Nodes<dim> &nodes = *body.nodes;
-    auto             &out   = problem.run.screen;
-    for (const auto id : body.mesh->material_ids)
+    // A check is to take seconds.
+    constexpr GlobalIndex max_unknowns = 300000;
+    if (kind.has_motion || kind.has_iterations)
+      return false;
+    auto             &out     = problem.run.screen;
+    const GlobalIndex n_cells = problem.body.nodes->n_global;
+    out << "error       ";
+    if (!problem.discretisation.gradients.moments)
+      out << "not estimated: that takes Material/Form = consistent\n";
+    else if (dim * n_cells > max_unknowns)
+      out << "not estimated: " << grouped(n_cells) << " cells take long to solve for; the run tells it\n";
+    else
       {
-        double horizon = 0;
-        for (LocalIndex i = 0; i < nodes.size(); ++i)
-          if (nodes.material[i] == id)
-            horizon = std::max(horizon, nodes.horizon[i]);
-        horizon                           = dealii::Utilities::MPI::max(horizon, problem.run.communicator);
-        const double              stretch = Failure<dim>::critical_stretch(body, id, horizon);
-        const MaterialProperties &data    = body.properties_of(id);
-        out << "material    " << body.mesh->material_name(id) << ": ";
-        if (std::isfinite(stretch))
-          out << "critical stretch " << short_number(stretch) << " at the largest horizon, "
-              << short_number(horizon) << " m\n";
-        else if (const double strength = data.tensile_strength; strength > 0)
-          // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at
-          // r = E G/(2 pi f^2).
-          out << name_of(problem.parameters.material.failure_criterion) << ", " << short_number(strength)
-              << " Pa; at half the largest horizon, " << short_number(0.5 * horizon)
-              << " m, before a crack it stands for a fracture energy of "
-              << short_number(dealii::numbers::PI * horizon * strength * strength /
-                              body.solids.at(id).isotropic().young_modulus)
-              << " J/m^2\n";
-        else
-          out << "no fracture energy given, unbreakable\n";
+        problem.check_loads();
+        if (!solve_loosely())
+          {
+            out << "not estimated: the linear solver stopped, as it would in a run\n";
+            return true;
+          }
+        const ErrorEstimate estimate = estimate_mesh_error(problem, 1.);
+        out << in_words(estimate) << ";\n            "
+            << mesh_of_one_percent(estimate, n_cells, dim, problem.parameters.mesh.refinements) << '\n';
+        return true;
       }
+    return false;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Driver)

@@ -6,6 +6,7 @@
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace perideal
@@ -33,12 +34,27 @@ namespace perideal
         problem.find_motions();
         problem.weigh();
         problem.solve_reference();
+        make_solver();
+      }
+
+      void make_solver()
+      {
         const Timings::Scope scope(problem.run.timings, "setup");
         const Timings::Scope part(problem.run.timings, "setup: preconditioner");
         preconditioning = std::make_unique<Preconditioning<dim>>(
           problem, problem.parameters.solver.load_steps, solver_report);
         solver                = preconditioning->create_solver(problem.parameters.solver, *problem.system);
         solver_report["name"] = solver->name();
+      }
+
+      bool solve_loosely() override
+      {
+        make_solver();
+        solver->set_tolerance(std::max(1e-4, problem.parameters.solver.tolerance));
+        Step<dim> step;
+        step.time = 1.;
+        solve(step);
+        return step.search.converged;
       }
 
       std::string describe() const override

@@ -25,7 +25,8 @@ namespace perideal
     /// @throws InputError, ComputationError, and Stopped where the program was asked to stop.
     void run();
 
-    /// Reads, meshes, counts and warns; solves nothing. Collective.
+    /// Reads, meshes, counts and warns; solves what an estimate of the error takes, and writes nothing.
+    /// Collective.
     /// @throws InputError as run() does before it solves.
     void check();
 
@@ -56,6 +57,10 @@ namespace perideal
 
     /// Returns the memory of its operators on this rank [B].
     virtual std::size_t memory_consumption() const;
+
+    /// Solves for all loads to a loose tolerance, where that takes one linear system. Collective.
+    /// @return whether the solver came to that
+    virtual bool solve_loosely() { return false; }
 
     /// Returns lines about the end of a run.
     virtual std::string closing_lines() const { return {}; }
@@ -93,7 +98,8 @@ namespace perideal
     void finish(const RunStatus status);
     /// The same when an error is on its way, which no other may replace.
     void finish_after_error() noexcept;
-    void print_materials() const;
+    /// Prints what the mesh leaves of error in the consistent form; whether it solved for that. Collective.
+    bool print_error();
   };
 
   /// Makes the driver that the scene asks for. Collective.
