@@ -72,7 +72,7 @@ namespace perideal
       options.set("coarse: type", "Amesos-KLU");
       // Factors of larger ones take longer than the levels that they save; below 1,000 thin bodies take more
       // iterations.
-      options.set("coarse: max size", 1000);
+      options.set("coarse: max size", 2000);
       options.set("null space: type", "pre-computed");
       options.set("null space: dimension", near_null_space.NumVectors());
       options.set("null space: vectors", near_null_space.Values());

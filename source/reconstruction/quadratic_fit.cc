@@ -207,8 +207,9 @@ namespace perideal
   std::vector<typename QuadraticFit<dim>::Terms>
   QuadraticFit<dim>::squares_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const
   {
-    const Eigen::SelfAdjointEigenSolver<Quadratic> spectrum(squares_of(surfaces) +
-                                                            1e-3 * dropped * dropped.transpose());
+    const Quadratic sum =
+      misses_only_across(surfaces) ? squares_of(surfaces) : Quadratic(dropped * dropped.transpose());
+    const Eigen::SelfAdjointEigenSolver<Quadratic> spectrum(sum);
     std::vector<Terms>                             squares;
     for (Eigen::Index k = 0; k < dropped.cols(); ++k)
       squares.push_back(terms_of_x(LinearTerms::Zero(), spectrum.eigenvectors().col(n_quadratic - 1 - k)));

@@ -61,8 +61,7 @@ namespace perideal
     bool misses_only_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const;
 
     /// Returns such squares as coefficients of the monomials, as many as there are undetermined()
-    /// polynomials and those that are nearest to them. Where there are fewer, quadratic parts of undetermined
-    /// polynomials stand in their place.
+    /// polynomials; where they do not account for all that is left out, the quadratic parts of those.
     std::vector<Terms> squares_across(const std::vector<dealii::Tensor<1, dim>> &surfaces) const;
 
   private:

@@ -69,8 +69,9 @@ namespace
       const Loads<dim> loads  = resolve_boundaries(mesh, Loads<dim>(text));
       const auto       values = std::make_shared<FaceValues<dim>>(faces->boundary_points(), loads);
       values->set_time(loads, 1.);
-      moments = std::make_shared<const GradientMoments<dim>>(polynomials, faces, values, MPI_COMM_WORLD);
-      bonds   = test::make_consistent_operator<dim>(body.families,
+      moments =
+        std::make_shared<const GradientMoments<dim>>(polynomials, faces, values, body.nodes.communicator);
+      bonds = test::make_consistent_operator<dim>(body.families,
                                                   moments,
                                                   create_consistent<dim>(parameters, 2.01),
                                                   [solid](const auto) { return solid; });
