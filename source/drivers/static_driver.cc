@@ -87,7 +87,12 @@ namespace perideal
             measure(step);
             recorders->record(step);
             if (step.is_last)
-              recorders->conclude(step);
+              {
+                // The solutions to compare with take more memory than anything else.
+                solver.reset();
+                preconditioning.reset();
+                recorders->conclude(step);
+              }
             recorders->write_fields(step);
           }
         return true;

@@ -70,8 +70,7 @@ namespace perideal
       options.set("smoother: pre or post", "both");
       options.set("smoother: sweeps (level 0)", static_cast<int>(finest_sweeps));
       options.set("coarse: type", "Amesos-KLU");
-      // Factors of larger ones take longer than the levels that they save; below 1,000 thin bodies take more
-      // iterations.
+      // With fewer, thin bodies of as many unknowns take twice the iterations.
       options.set("coarse: max size", 2000);
       options.set("null space: type", "pre-computed");
       options.set("null space: dimension", near_null_space.NumVectors());
