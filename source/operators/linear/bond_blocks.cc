@@ -2,8 +2,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/linear/bond_blocks.h>
 
-#include <algorithm>
-
 namespace perideal
 {
   template <int dim>
@@ -20,30 +18,23 @@ namespace perideal
   }
 
   template <int dim>
-  void BondBlocks<dim>::Ends::fill(const double                  sign,
-                                   const BondDirections<dim>    &directions,
-                                   const dealii::Tensor<1, dim> &end,
+  void BondBlocks<dim>::Ends::fill(const double                  pull,
+                                   const double                  end,
+                                   const dealii::Tensor<1, dim> &bond,
                                    const unsigned int            component,
                                    std::vector<double>          &result) const
   {
-    const std::size_t n     = size();
-    const double     *value = numbers.data();
+    const std::size_t n        = size();
+    const double     *value    = numbers.data();
+    const double     *gradient = value + (1 + dim * pattern[component]) * n;
+    const auto        factor   = -0.5 * end * bond;
     result.resize(n);
     double *to = result.data();
-    if (component == dim)
-      {
-        for (std::size_t k = 0; k < n; ++k)
-          to[k] = sign * value[k];
-        return;
-      }
-    const double *gradient = value + (1 + dim * pattern[component]) * n;
-    const double  pull     = sign * directions.pull[component];
-    const auto    bond     = -0.5 * end[component] * directions.bond;
     for (std::size_t k = 0; k < n; ++k)
       {
         double sum = pull * value[k];
         for (unsigned int l = 0; l < dim; ++l)
-          sum += bond[l] * gradient[l * n + k];
+          sum += factor[l] * gradient[l * n + k];
         to[k] = sum;
       }
   }
@@ -78,41 +69,73 @@ namespace perideal
   }
 
   template <int dim>
+  unsigned int
+  BondBlocks<dim>::fill(const BondDirections<dim> &directions, const bool has_tension, const Ends &far)
+  {
+    if (!has_tension && near->is_alike() && far.is_alike() && directions.are_at_rest())
+      {
+        near->fill(-1., 1., directions.bond, 0, of_bond[0]);
+        far.fill(1., 1., directions.bond, 0, of_far[0]);
+        return 1;
+      }
+    for (unsigned int a = 0; a < dim; ++a)
+      {
+        near->fill(-directions.pull[a], directions.near[a], directions.bond, a, of_bond[a]);
+        far.fill(directions.pull[a], directions.far[a], directions.bond, a, of_far[a]);
+      }
+    if (has_tension)
+      {
+        near->fill(-1., 0., directions.bond, 0, of_bond[dim]);
+        far.fill(1., 0., directions.bond, 0, of_far[dim]);
+      }
+    return has_tension ? dim + 1 : dim;
+  }
+
+  template <int dim>
   void BondBlocks<dim>::add(const BondDirections<dim> &directions,
                             const double               stiffness,
                             const double               tension,
                             const Ends                &far)
   {
-    // Bodies at rest do not ask for p_j - p_i alone.
-    const unsigned int n_components = tension == 0. ? dim : dim + 1;
-    for (unsigned int c = 0; c < n_components; ++c)
+    const unsigned int                     n_rows = fill(directions, tension != 0., far);
+    std::array<double *, dim + 1>          here, there;
+    const auto                             products = Symmetric::products(directions.bond);
+    std::array<double, Symmetric::n_pairs> factor;
+    for (unsigned int r = 0; r < n_rows; ++r)
       {
-        near->fill(-1., directions, directions.near, c, of_bond[c]);
-        far.fill(1., directions, directions.far, c, of_far[c]);
+        here[r]  = of_bond[r].data();
+        there[r] = of_far[r].data();
       }
-    const auto product = [&](const auto &row, const unsigned int pair, const std::size_t k) {
+    for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
+      factor[p] = stiffness * (n_rows == 1 ? products[p] : 1.);
+    const auto product = [&](const auto &rows, const unsigned int pair, const std::size_t k) {
       const auto [a, b] = Symmetric::axes(pair);
-      double result     = stiffness * row[a][k] * row[b][k];
-      if (a == b && n_components > dim)
-        result += tension * row[dim][k] * row[dim][k];
+      if (n_rows == 1)
+        return factor[pair] * rows[0][k] * rows[0][k];
+      double result = factor[pair] * rows[a][k] * rows[b][k];
+      if (a == b && n_rows > dim)
+        result += tension * rows[dim][k] * rows[dim][k];
       return result;
     };
     for (std::size_t k = 0; k < far.size(); ++k)
       if (const LocalIndex at = place[far.column[k]]; at != nowhere)
         {
-          for (unsigned int c = 0; c < n_components; ++c)
-            of_bond[c][at] += of_far[c][k];
+          for (unsigned int r = 0; r < n_rows; ++r)
+            here[r][at] += there[r][k];
         }
       else
         {
           typename Symmetric::Pairs block;
           for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
-            block[p] = product(of_far, p, k);
+            block[p] = product(there, p, k);
           add_at(far.column[k], block);
         }
     for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
-      for (std::size_t k = 0; k < near->size(); ++k)
-        sums[p][k] += product(of_bond, p, k);
+      {
+        double *sum = sums[p].data();
+        for (std::size_t k = 0; k < near->size(); ++k)
+          sum[k] += product(here, p, k);
+      }
   }
 
   template <int dim>

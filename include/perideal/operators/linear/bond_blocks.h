@@ -15,6 +15,8 @@ namespace perideal
   struct BondDirections
   {
     dealii::Tensor<1, dim> bond, pull, near, far;
+
+    bool are_at_rest() const { return pull == bond && near == bond && far == bond; }
   };
 
   /**
@@ -38,11 +40,13 @@ namespace perideal
       explicit Ends(const typename GradientRows<dim>::Row &row);
 
       std::size_t size() const { return column.size(); }
+      /// Whether G is that of all components of the displacement.
+      bool is_alike() const { return numbers.size() == (1 + dim) * size(); }
 
-      /// Writes sign p pull - 1/2 end xi.G of a component by column; p alone where the component is @p dim.
-      void fill(const double                  sign,
-                const BondDirections<dim>    &directions,
-                const dealii::Tensor<1, dim> &end,
+      /// Writes pull p - 1/2 end xi.G by column, G that of a component.
+      void fill(const double                  pull,
+                const double                  end,
+                const dealii::Tensor<1, dim> &bond,
                 const unsigned int            component,
                 std::vector<double>          &result) const;
 
@@ -68,14 +72,17 @@ namespace perideal
   private:
     using Symmetric = SymmetricPairs<dim>;
 
-    void add_at(const LocalIndex column, const typename Symmetric::Pairs &block);
+    /// Fills of_bond and of_far, and returns how many rows they have.
+    unsigned int fill(const BondDirections<dim> &directions, const bool has_tension, const Ends &far);
+    void         add_at(const LocalIndex column, const typename Symmetric::Pairs &block);
 
     static constexpr LocalIndex          nowhere = static_cast<LocalIndex>(-1);
     std::vector<dealii::Tensor<2, dim>> &blocks;
     const Ends                          *near = nullptr;
     /// Where a column stands in the row of the cell.
     std::vector<LocalIndex> place;
-    /// rho by component and, behind them, p_j - p_i, in the columns of the cell; what the far end gives.
+    /// In the columns of the cell, and what the far end gives: rho by component and, where the bond is in
+    /// tension, p_j - p_i; of bodies at rest, whose rho is parallel to xi, one number.
     std::array<std::vector<double>, dim + 1> of_bond, of_far;
     /// By pair of axes, in the columns of the cell.
     std::array<std::vector<double>, Symmetric::n_pairs> sums;
