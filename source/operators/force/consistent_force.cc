@@ -49,7 +49,7 @@ namespace perideal
   {
     moments->read(last, GradientMoments<dim>::AtFaces::values);
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      bonds->set_state(i, moments->value(i), strain_of(to_tensor<dim>(moments->gradient(i))));
+      bonds->set_state(i, *moments->polynomial(i), strain_of(to_tensor<dim>(moments->gradient(i))));
     if (has_small_strain)
       bonds->sum_small();
     else

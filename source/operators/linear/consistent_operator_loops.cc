@@ -41,7 +41,7 @@ namespace perideal
         dilatations[i] = 0;
         for (unsigned int d = 0; d < dim; ++d)
           dilatations[i] += strain[d];
-        bonds->set_state(i, moments->value(i), strain);
+        bonds->set_state(i, *moments->polynomial(i), strain);
       }
     bonds->sum_small();
   }

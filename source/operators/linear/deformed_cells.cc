@@ -79,7 +79,7 @@ namespace perideal
             const auto [a, b] = Symmetric::axes(p);
             strain[p]         = a == b ? change[a][a] : change[a][b] + change[b][a];
           }
-        bonds->set_state(i, moments->value(i), strain);
+        bonds->set_state(i, *moments->polynomial(i), strain);
       }
     bonds->sum_changes(of_bonds);
   }

@@ -64,7 +64,7 @@ namespace perideal
         for (const auto id : cells.graph().material)
           if (stiffness.count(id) == 0)
             stiffness[id] = solid_of(id).stiffness();
-        read_polynomials(displacement);
+        read_polynomials(moments, displacement);
         add_strain_energy();
       }
 
@@ -83,7 +83,7 @@ namespace perideal
       /// Coefficients of the monomials about the centroid.
       using Polynomial = std::array<Vector, n_terms>;
 
-      void read_polynomials(const NodalVector &displacement);
+      void read_polynomials(const GradientMoments<dim> &moments, const NodalVector &displacement);
       void add_strain_energy();
 
       const dealii::SymmetricTensor<4, dim> &stiffness_of(const LocalIndex i) const
@@ -113,24 +113,15 @@ namespace perideal
     };
 
     template <int dim>
-    void Indicators<dim>::read_polynomials(const NodalVector &displacement)
+    void Indicators<dim>::read_polynomials(const GradientMoments<dim> &moments,
+                                           const NodalVector          &displacement)
     {
-      std::vector<Vector> means(n_owned);
-      for (LocalIndex i = 0; i < n_owned; ++i)
-        for (int d = 0; d < dim; ++d)
-          means[i][d] = displacement.local_element(dim * i + d);
-      const auto              all = cells.graph().with_ghosts(means);
+      moments.read(displacement, GradientMoments<dim>::AtFaces::nothing);
       std::vector<Polynomial> own(n_owned);
       for (LocalIndex i = 0; i < n_owned; ++i)
-        {
-          for (BondIndex k = cells.first()[i]; k < cells.first()[i + 1]; ++k)
-            for (unsigned int t = 1; t < n_terms; ++t)
-              own[i][t] += cells.coefficients()[k][t - 1] * (all[cells.columns()[k]] - all[i]);
-          own[i][0]             = all[i];
-          const auto of_squares = cells.means(i);
-          for (unsigned int p = 0; p < of_squares.size(); ++p)
-            own[i][0] -= of_squares[p] * own[i][1 + dim + p];
-        }
+        for (unsigned int m = 0; m < n_terms; ++m)
+          for (int a = 0; a < dim; ++a)
+            own[i][m][a] = moments.polynomial(i)[m].value[a];
       polynomials = cells.graph().with_ghosts(own);
     }
 

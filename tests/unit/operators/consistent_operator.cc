@@ -292,7 +292,7 @@ namespace
             {
               const auto expected = patch(loaded.moments->cell_polynomials().centroids()[i]);
               for (int d = 0; d < dim; ++d)
-                EXPECT_NEAR(loaded.moments->value(i).value[d], expected[d], 1e-15);
+                EXPECT_NEAR(loaded.moments->polynomial(i)->value[d], expected[d], 1e-15);
             }
         }
   }

@@ -66,15 +66,20 @@ namespace perideal
     void read(const NodalVector &displacement, const AtFaces at_faces) const;
 
     /// Of an owned cell, lanes by component of the displacement: G_l [-], H_kl [m^3] behind k dim + l, and
-    /// the value of its polynomial at the centroid [m]. After read().
+    /// the coefficients of its polynomial about the centroid, of which the first is the value there [m].
+    /// After read().
     NodeRecord       *gradient(const LocalIndex i) const { return work.gradient.data() + dim * i; }
     NodeRecord       *moment(const LocalIndex i) const { return work.moment.data() + dim * dim * i; }
-    const NodeRecord &value(const LocalIndex i) const { return work.polynomial[n_coefficients * i]; }
-    /// What acts on that value [N].
+    const NodeRecord *polynomial(const LocalIndex i) const
+    {
+      return work.polynomial.data() + n_coefficients * i;
+    }
+    /// What acts on the value at the centroid [N].
     NodeRecord &force(const LocalIndex i) const { return work.value_force[i]; }
 
-    /// Computes the forces on nodes that belong to what acts on gradient(), moment() and value(), which the
-    /// caller has written to gradient(), moment() [N m, N/m^2] and force(). Collective.
+    /// Computes the forces on nodes that belong to what acts on gradient(), moment() and polynomial()[0],
+    /// which the caller has written to gradient(), moment() [N m, N/m^2] and force(). It leaves no
+    /// polynomials. Collective.
     void transpose(NodalVector &force) const;
 
     /// Forces that supports exert on the body at the prescribed values [N], by entry, of the last
