@@ -32,6 +32,7 @@ namespace perideal
       void prepare() override
       {
         problem.find_motions();
+        problem.solve_fem_ahead();
         problem.weigh();
         problem.solve_reference();
         make_solver();
@@ -88,7 +89,7 @@ namespace perideal
             recorders->record(step);
             if (step.is_last)
               {
-                // The solutions to compare with take more memory than anything else.
+                // Stresses of the last step and the like take memory of their own.
                 solver.reset();
                 preconditioning.reset();
                 recorders->conclude(step);

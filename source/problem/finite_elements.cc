@@ -5,25 +5,55 @@
 
 namespace perideal
 {
-  template <int dim>
-  NodalField<dim> at_nodes(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+  namespace
   {
-    if (fem.is_on_mesh_itself())
-      return on_mesh_at_nodes<dim>(problem, fem);
-    auto result = fem.evaluate(problem.body.nodes->position);
-    problem.free_motions.remove_mean(*problem.body.nodes, result);
-    return result;
-  }
+    /// Returns a solution by finite elements at the nodes, rigid-body motions removed. Collective.
+    template <int dim>
+    NodalField<dim> at_nodes(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+    {
+      if (fem.is_on_mesh_itself())
+        return on_mesh_at_nodes<dim>(problem, fem);
+      auto result = fem.evaluate(problem.body.nodes->position);
+      problem.free_motions.remove_mean(*problem.body.nodes, result);
+      return result;
+    }
+
+    /// Returns strain and stress of finite elements on the mesh itself at the nodes.
+    template <int dim>
+    std::vector<ElasticState> states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+    {
+      const Nodes<dim> &nodes  = *problem.body.nodes;
+      const auto        solids = problem.discretisation.compared_solids(problem.body, *problem.body.mesh);
+      std::vector<ElasticState> result;
+      for (const auto &gradient :
+           in_cells_of_nodes(nodes, [&](const auto &points) { return fem.gradients_in_cells(points); }))
+        result.push_back(elastic_state<dim>(symmetrize(gradient), solids.at(nodes.material[result.size()])));
+      return result;
+    }
+  } // namespace
 
   template <int dim>
-  std::vector<ElasticState> states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+  FemSolution<dim> solve_compared_fem(Problem<dim> &problem, const double time)
   {
-    const Nodes<dim> &nodes  = *problem.body.nodes;
-    const auto        solids = problem.discretisation.compared_solids(problem.body, *problem.body.mesh);
-    std::vector<ElasticState> result;
-    for (const auto &gradient :
-         in_cells_of_nodes(nodes, [&](const auto &points) { return fem.gradients_in_cells(points); }))
-      result.push_back(elastic_state<dim>(symmetrize(gradient), solids.at(nodes.material[result.size()])));
+    Timings             &timings = problem.run.timings;
+    const Timings::Scope scope(timings, "fem");
+    const Mesh<dim>     &mesh = *problem.body.mesh;
+    ElasticFem<dim>      fem(mesh, problem.loading.loads, problem.parameters.comparison.fem_degree);
+    {
+      const Timings::Scope part(timings, "fem: assembly");
+      fem.assemble(problem.discretisation.compared_solids(problem.body, mesh), time);
+    }
+    {
+      const Timings::Scope part(timings, "fem: multigrid");
+      fem.set_up_solver();
+    }
+    const Timings::Scope part(timings, "fem: solve");
+    FemSolution<dim>     result;
+    result.iterations = fem.solve(problem.parameters.solver.tolerance);
+    result.n_unknowns = fem.n_dofs();
+    if (fem.is_on_mesh_itself())
+      result.states = states_of_fem(problem, fem);
+    result.displacement = at_nodes<dim>(problem, fem);
     return result;
   }
 
@@ -53,7 +83,6 @@ namespace perideal
     return result;
   }
 
-  PERIDEAL_INSTANTIATE(at_nodes)
-  PERIDEAL_INSTANTIATE(states_of_fem)
+  PERIDEAL_INSTANTIATE(solve_compared_fem)
   PERIDEAL_INSTANTIATE(reference_at_nodes)
 } // namespace perideal

@@ -42,7 +42,7 @@ namespace perideal
     const double total = estimate.total();
     return total > 0.5 ? "the mesh does not resolve the displacement: its estimated error is above 50 %" :
            total > 0.  ? "the mesh leaves about " + about(100. * total) +
-                          " % of error in the displacement (l2, estimated within a factor of three)" :
+                          " % of error in the displacement (l2, estimated, mostly within a factor of three)" :
                         "the mesh leaves no error in this displacement";
   }
 

@@ -75,6 +75,22 @@ namespace perideal
   }
 
   template <int dim>
+  void Problem<dim>::solve_fem(const double time)
+  {
+    state.fem                = solve_compared_fem(*this, time);
+    state.comparisons["fem"] = state.fem->displacement;
+  }
+
+  template <int dim>
+  void Problem<dim>::solve_fem_ahead()
+  {
+    if (!parameters.comparison.fem || parameters.comparison.by_families())
+      return;
+    run.screen << "comparison  finite elements on the mesh itself" << std::endl;
+    solve_fem(1.);
+  }
+
+  template <int dim>
   void Problem<dim>::make_force()
   {
     const Timings::Scope scope(run.timings, "setup");

@@ -6,11 +6,9 @@
 #include <perideal/output/profiles.h>
 #include <perideal/parameters/point_text.h>
 #include <perideal/problem/elastic_states.h>
-#include <perideal/problem/finite_elements.h>
 #include <perideal/recorders/make_recorders.h>
 
 #include <cmath>
-#include <optional>
 
 namespace perideal
 {
@@ -116,7 +114,12 @@ namespace perideal
       void conclude(const Step<dim> &step, const Record &record) override
       {
         if (solves_fem)
-          problem.state.comparisons["fem"] = solve_fem(step.time, record.summary["fem"]);
+          {
+            if (!problem.state.fem)
+              problem.solve_fem(step.time);
+            record.summary["fem"] = {{"iterations", Json::array({problem.state.fem->iterations})},
+                                     {"unknowns", problem.state.fem->n_unknowns}};
+          }
         if (parameters.has_exact())
           problem.state.comparisons["exact"] = exact_at_nodes(step.time);
         const Timings::Scope scope(problem.run.timings, "output");
@@ -124,28 +127,6 @@ namespace perideal
       }
 
     private:
-      NodalField<dim> solve_fem(const double time, Json &report)
-      {
-        Timings             &timings = problem.run.timings;
-        const Timings::Scope scope(timings, "fem");
-        const Mesh<dim>     &mesh = *problem.body.mesh;
-        ElasticFem<dim>      fem(mesh, problem.loading.loads, parameters.fem_degree);
-        {
-          const Timings::Scope part(timings, "fem: assembly");
-          fem.assemble(problem.discretisation.compared_solids(problem.body, mesh), time);
-        }
-        {
-          const Timings::Scope part(timings, "fem: multigrid");
-          fem.set_up_solver();
-        }
-        const Timings::Scope part(timings, "fem: solve");
-        report["iterations"].push_back(fem.solve(problem.parameters.solver.tolerance));
-        report["unknowns"] = fem.n_dofs();
-        if (fem.is_on_mesh_itself() && has_elastic_states(problem))
-          fem_states = states_of_fem(problem, fem);
-        return at_nodes<dim>(problem, fem);
-      }
-
       /// Errors of the stress against that of the finite elements, and the largest von Mises stress of both.
       Json stress_errors() const
       {
@@ -157,11 +138,11 @@ namespace perideal
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
             own.push_back(states[i].stress);
-            fem.push_back((*fem_states)[i].stress);
+            fem.push_back((*problem.state.fem->states)[i].stress);
             if (is_given(i))
               continue;
             own_peak = std::max(own_peak, states[i].von_mises());
-            fem_peak = std::max(fem_peak, (*fem_states)[i].von_mises());
+            fem_peak = std::max(fem_peak, (*problem.state.fem->states)[i].von_mises());
           }
         const auto errors = field_errors(nodes, own, fem, [&](const LocalIndex i) { return is_given(i); });
         const auto of_all = [&](const double peak) {
@@ -231,7 +212,7 @@ namespace perideal
               result["fem"][std::string("own error against ") + truth] =
                 errors_of(solutions.at("fem"), solutions.at(truth));
 
-        if (solutions.count("fem") > 0 && fem_states)
+        if (problem.state.fem && problem.state.fem->states && has_elastic_states(problem))
           result["fem"]["stress"] = stress_errors();
 
         for (const auto &profile : profiles)
@@ -251,8 +232,6 @@ namespace perideal
       const bool                                    solves_fem;
       const std::array<SpaceTimeFunction<dim>, dim> exact;
       const Profiles<dim>                           profiles;
-      /// Of finite elements on the mesh itself, where the body's are known too.
-      std::optional<std::vector<ElasticState>> fem_states;
     };
   } // namespace
 

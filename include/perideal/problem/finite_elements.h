@@ -39,14 +39,9 @@ namespace perideal
     return result;
   }
 
-  /// Returns a solution by finite elements on cells of their own at the nodes, rigid-body motions removed.
-  /// Collective.
+  /// Returns linear finite elements of the degree that the scene compares with. Collective.
   template <int dim>
-  NodalField<dim> at_nodes(const Problem<dim> &problem, const ElasticFem<dim> &fem);
-
-  /// Returns strain and stress of finite elements on the mesh itself at the nodes.
-  template <int dim>
-  std::vector<ElasticState> states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem);
+  FemSolution<dim> solve_compared_fem(Problem<dim> &problem, const double time);
 
   /// Returns Q2 finite elements on the refined mesh, or on the reference's own mesh, at the nodes.
   /// Collective.

@@ -2,6 +2,7 @@
 #ifndef perideal_problem_problem_h
 #define perideal_problem_problem_h
 
+#include <perideal/materials/elastic_state.h>
 #include <perideal/output/lasting_state.h>
 #include <perideal/problem/failure.h>
 #include <perideal/problem/loading.h>
@@ -9,6 +10,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,18 @@ namespace perideal
   /// A displacement at this rank's nodes [m].
   template <int dim>
   using NodalField = std::vector<dealii::Tensor<1, dim>>;
+
+  /// A solution by finite elements on the mesh itself.
+  template <int dim>
+  struct FemSolution
+  {
+    /// At the nodes, rigid-body motions removed [m].
+    NodalField<dim> displacement;
+    /// At the nodes; none where the elements' cells are not those of the body.
+    std::optional<std::vector<ElasticState>> states;
+    unsigned int                             iterations = 0;
+    dealii::types::global_dof_index          n_unknowns = 0;
+  };
 
   /// The state of the body, as the last step left it.
   template <int dim>
@@ -28,6 +42,8 @@ namespace perideal
     NodalField<dim> displacement, velocity;
     /// Solutions it is held against, by name: "fem", "reference", "exact".
     std::map<std::string, NodalField<dim>> comparisons;
+    /// The linear finite elements among them.
+    std::optional<FemSolution<dim>> fem;
   };
 
   /**
@@ -53,6 +69,13 @@ namespace perideal
 
     /// Solves for the converged reference where the scene asks for one. Collective.
     void solve_reference();
+
+    /// Solves finite elements on the mesh itself for the loads of a time. Collective.
+    void solve_fem(const double time);
+
+    /// Solves them for t = 1 before the bonds are weighed, when nothing else is in memory, where the scene
+    /// compares with them and they do not wait for the stiffness of the weighed families. Collective.
+    void solve_fem_ahead();
 
     /// Makes the nonlinear force of whole bonds.
     void make_force();
