@@ -71,8 +71,9 @@ namespace perideal
       void prepare() override
       {
         problem.find_motions();
+        problem.solve_comparisons(false);
         problem.weigh();
-        problem.solve_reference();
+        problem.solve_comparisons(false);
         problem.make_force();
         solver_report["name"] = "dynamic relaxation";
         if (solver.is_quasi_static())

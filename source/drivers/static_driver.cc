@@ -32,9 +32,9 @@ namespace perideal
       void prepare() override
       {
         problem.find_motions();
-        problem.solve_fem_ahead();
+        problem.solve_comparisons(true);
         problem.weigh();
-        problem.solve_reference();
+        problem.solve_comparisons(true);
         make_solver();
       }
 

@@ -63,18 +63,6 @@ namespace perideal
   }
 
   template <int dim>
-  void Problem<dim>::solve_reference()
-  {
-    const ComparisonParameters &comparison = parameters.comparison;
-    if (!comparison.reference && !loading.supports->needs_reference())
-      return;
-    run.screen << "reference   Q2 finite elements, " << comparison.reference_refinements << " refinement(s)"
-               << (comparison.reference_mesh.empty() ? "" : " of " + comparison.reference_mesh) << std::endl;
-    state.comparisons["reference"] = reference_at_nodes(*this);
-    loading.supports->set_reference(state.comparisons["reference"]);
-  }
-
-  template <int dim>
   void Problem<dim>::solve_fem(const double time)
   {
     state.fem                = solve_compared_fem(*this, time);
@@ -82,12 +70,26 @@ namespace perideal
   }
 
   template <int dim>
-  void Problem<dim>::solve_fem_ahead()
+  void Problem<dim>::solve_comparisons(const bool is_linear_static)
   {
-    if (!parameters.comparison.fem || parameters.comparison.by_families())
+    const ComparisonParameters &comparison = parameters.comparison;
+    if (comparison.by_families() && !discretisation.family_stiffness)
       return;
-    run.screen << "comparison  finite elements on the mesh itself" << std::endl;
-    solve_fem(1.);
+    const bool has_reference = comparison.reference || loading.supports->needs_reference();
+    if (has_reference && state.comparisons.count("reference") == 0)
+      {
+        run.screen << "reference   Q2 finite elements, " << comparison.reference_refinements
+                   << " refinement(s)"
+                   << (comparison.reference_mesh.empty() ? "" : " of " + comparison.reference_mesh)
+                   << std::endl;
+        state.comparisons["reference"] = reference_at_nodes(*this);
+        loading.supports->set_reference(state.comparisons["reference"]);
+      }
+    if (comparison.fem && is_linear_static && !state.fem)
+      {
+        run.screen << "comparison  finite elements on the mesh itself" << std::endl;
+        solve_fem(1.);
+      }
   }
 
   template <int dim>

@@ -67,15 +67,13 @@ namespace perideal
     /// Weighs the bonds and makes the linear system. Collective.
     void weigh();
 
-    /// Solves for the converged reference where the scene asks for one. Collective.
-    void solve_reference();
-
     /// Solves finite elements on the mesh itself for the loads of a time. Collective.
     void solve_fem(const double time);
 
-    /// Solves them for t = 1 before the bonds are weighed, when nothing else is in memory, where the scene
-    /// compares with them and they do not wait for the stiffness of the weighed families. Collective.
-    void solve_fem_ahead();
+    /// Solves for what the scene compares with at t = 1: the converged reference, and in linear statics
+    /// finite elements on the mesh itself. To be called before weigh(), when little else is in memory, and
+    /// again after it, for stiffnesses that are those of weighed families. Collective.
+    void solve_comparisons(const bool is_linear_static);
 
     /// Makes the nonlinear force of whole bonds.
     void make_force();
