@@ -66,6 +66,7 @@ namespace perideal
           "Material/Failure criterion",
           "Material/Tensile strength",
           "Material/Compressive strength",
+          "Material/Softening",
           "Material/Stretch formula"},
          "Solver/Name = quasi static | dynamic relaxation | dynamics",
          [](const Scene &s) { return !s.solver.is_linear_static(); }},

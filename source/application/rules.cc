@@ -71,6 +71,7 @@ namespace perideal
               {"Material/Boundary compensation", name_of(scene.model.boundary_compensation)},
               {"Material/Compensation of a bond", name_of(scene.model.compensation_of_a_bond)},
               {"Material/Stretch formula", name_of(scene.model.stretch_formula)},
+              {"Material/Softening", name_of(scene.material.softening)},
               {"Material/Failure criterion", name_of(scene.material.failure_criterion)},
               {"Material/Assumption", name_of(scene.material.assumption)},
               {"Nodes/Horizon shape", name_of(scene.nodes.horizon_shape)},

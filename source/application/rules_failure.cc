@@ -57,6 +57,18 @@ namespace perideal
         "the bonds of this model break by stretch",
         "none for Material/Model = ...",
         "set Material/Fracture energy or Critical stretch"),
+      refuse(
+        "Material/Softening",
+        "Material/Softening other than none, Material/Model = correspondence",
+        [](const Scene &s) { return s.material.softens() && s.model.is_correspondence(); },
+        "the bonds of this model break by stress",
+        "none for Material/Model = correspondence"),
+      refuse(
+        "Material/Multipliers",
+        "Material/Multipliers = recomputed, Material/Softening other than none",
+        [](const Scene &s) { return s.material.softens() && s.model.recomputes(); },
+        "families are weighed anew as bonds break, which softening bonds do little by little",
+        "intact | after the cut with Material/Softening"),
       refuse_each("Material/NAME/Fracture energy, Critical stretch",
                   "Material/Model = correspondence",
                   stretches_of_bonds_that_break_by_stress,

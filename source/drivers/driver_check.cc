@@ -22,22 +22,23 @@ namespace perideal
     template <int dim>
     void print_materials(Problem<dim> &problem)
     {
-      const Body<dim>  &body  = problem.body;
-      const Nodes<dim> &nodes = *body.nodes;
-      auto             &out   = problem.run.screen;
+      const Body<dim>                &body  = problem.body;
+      const Nodes<dim>               &nodes = *body.nodes;
+      auto                           &out   = problem.run.screen;
+      typename Failure<dim>::Breaking breaking;
+      if (can_break(problem.parameters) && problem.parameters.model.model->critical_stretch)
+        breaking = Failure<dim>::breaking(body, problem.discretisation);
       for (const auto id : body.mesh->material_ids)
         {
           double horizon = 0;
           for (LocalIndex i = 0; i < nodes.size(); ++i)
             if (nodes.material[i] == id)
               horizon = std::max(horizon, nodes.horizon[i]);
-          horizon                           = dealii::Utilities::MPI::max(horizon, problem.run.communicator);
-          const double              stretch = Failure<dim>::critical_stretch(body, id, horizon);
-          const MaterialProperties &data    = body.properties_of(id);
+          horizon                        = dealii::Utilities::MPI::max(horizon, problem.run.communicator);
+          const MaterialProperties &data = body.properties_of(id);
           out << "material    " << body.mesh->material_name(id) << ": ";
-          if (std::isfinite(stretch))
-            out << "critical stretch " << short_number(stretch) << " at the largest horizon, "
-                << short_number(horizon) << " m\n";
+          if (breaking.stretch.count(id) > 0)
+            out << "critical stretch " << short_number(breaking.stretch.at(id)) << " on average\n";
           else if (const double strength = data.tensile_strength; strength > 0)
             // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at
             // r = E G/(2 pi f^2).
@@ -50,6 +51,9 @@ namespace perideal
           else
             out << "no fracture energy given, unbreakable\n";
         }
+      if (const auto &share = breaking.share_of_energy; share && share->mean > 0)
+        out << "cracks      take " << short_number(share->smallest) << " to " << short_number(share->largest)
+            << " of the fracture energy by their direction, " << short_number(share->mean) << " on average\n";
     }
   } // namespace
 

@@ -100,8 +100,12 @@ namespace perideal
     prm.add_parameter(
       "Stretch formula",
       stretch_formula,
-      "Critical stretch that a fracture energy means: automatic: the model's own; ordinary: that of "
-      "state-based bonds; tensor involved: that of bonds with tensors, for that model");
+      "Critical stretch that a fracture energy means: automatic: bonds where they soften, else published; "
+      "bonds: "
+      "that for which the bonds across a crack, as they stand, take the fracture energy as they fail, in any "
+      "direction, with any influence function and Poisson's ratio, at surfaces too; by formulas for round "
+      "families of many bonds: published: the model's own; ordinary: that of state-based bonds; tensor "
+      "involved: that of bonds with tensors, for that model");
     declare_stabilisation(prm, *this);
     for (const auto &[name, traits] : ModelChoice::list())
       if (traits.declare)

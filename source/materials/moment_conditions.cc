@@ -13,29 +13,29 @@ namespace perideal
   {
     /// The directions multiplied in each monomial: XOSB eqs. (43), (37), (63), (57).
     template <int dim, int order>
-    struct Monomials;
+    struct MonomialsOfOrder;
 
     template <>
-    struct Monomials<2, 2>
+    struct MonomialsOfOrder<2, 2>
     {
       static constexpr int factors[3][2] = {{0, 0}, {1, 1}, {0, 1}};
     };
 
     template <>
-    struct Monomials<3, 2>
+    struct MonomialsOfOrder<3, 2>
     {
       static constexpr int factors[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
     };
 
     template <>
-    struct Monomials<2, 4>
+    struct MonomialsOfOrder<2, 4>
     {
       static constexpr int factors[5][4] = {
         {0, 0, 0, 0}, {1, 1, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 1}, {1, 1, 1, 0}};
     };
 
     template <>
-    struct Monomials<3, 4>
+    struct MonomialsOfOrder<3, 4>
     {
       static constexpr int factors[15][4] = {{0, 0, 0, 0},
                                              {1, 1, 1, 1},
@@ -69,7 +69,7 @@ namespace perideal
             {
               std::array<int, dim> exponents = {};
               for (const int monomial : {k, l})
-                for (const int direction : Monomials<dim, order>::factors[monomial])
+                for (const int direction : MonomialsOfOrder<dim, order>::factors[monomial])
                   ++exponents[direction];
               first[k][l] = first_with.insert({exponents, {k, l}}).first->second;
             }
@@ -106,7 +106,7 @@ namespace perideal
     const Array length_square(family.length_square.data(), n);
     for (int k = 0; k < n_conditions; ++k)
       {
-        const auto &factors = Monomials<dim, order>::factors[k];
+        const auto &factors = MonomialsOfOrder<dim, order>::factors[k];
         auto        column  = monomials.col(k).array();
         column = Array(family.bond[factors[0]].data(), n) * Array(family.bond[factors[1]].data(), n);
         if constexpr (order == 4)

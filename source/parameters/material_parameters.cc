@@ -42,7 +42,8 @@ namespace perideal
               "Stretch at which bonds break >= 0 [-]; 0: from the fracture energy");
       declare("Tensile strength",
               properties.tensile_strength,
-              "Strength in uniaxial tension f_t >= 0 [Pa], of a Failure criterion; 0: unbreakable");
+              "Strength in uniaxial tension f_t >= 0 [Pa], of a Failure criterion, 0: unbreakable; or of a "
+              "Softening, 0: none");
       declare(
         "Compressive strength",
         properties.compressive_strength,
@@ -104,6 +105,16 @@ namespace perideal
       "By which stress bonds of Model = correspondence break, the mean of that at their ends: " +
         meanings_of<StressCriterionTraits>() +
         ". Principal stresses are those in space. Bonds of other models break by stretch");
+    prm.add_parameter(
+      "Softening",
+      softening,
+      "How the force of bonds that break by stretch falls as they open, with the fracture energy for the "
+      "area "
+      "below: " +
+        meanings_of<SofteningTraits>() +
+        ". Cracks of bonds that break at once grow late. Softening begins at Tensile strength, or where that "
+        "is "
+        "0 at 0.58 times the critical stretch of bonds that break at once");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
@@ -145,11 +156,12 @@ namespace perideal
                                            const std::string        &section) const
   {
     InputErrorCollector errors;
-    if (!has_criterion() && (material.tensile_strength > 0 || material.compressive_strength > 0))
-      errors.add(InputError("a strength is given, and nothing breaks by stress")
-                   .parameter(section +
-                              (material.tensile_strength > 0 ? "/Tensile strength" : "/Compressive strength"))
-                   .hint("set Material/Failure criterion, or remove it"));
+    const bool          has_tensile_strength = material.tensile_strength > 0 && !softens();
+    if (!has_criterion() && (has_tensile_strength || material.compressive_strength > 0))
+      errors.add(
+        InputError("a strength is given, and nothing breaks by stress")
+          .parameter(section + (has_tensile_strength ? "/Tensile strength" : "/Compressive strength"))
+          .hint("set Material/Failure criterion, or Softening, or remove it"));
     if (has_criterion() && (material.fracture_energy > 0 || material.critical_stretch > 0))
       errors.add(
         InputError("bonds break either by stress or by stretch")

@@ -2,12 +2,14 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/weights/calibrated_stretches.h>
 #include <perideal/parameters/stress_criteria.h>
 #include <perideal/problem/failure.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -30,6 +32,91 @@ namespace perideal
         },
         can_break);
     }
+
+    /// s_0 over s_d of bonds without a strength: cracks then grow at Griffith's load, and at angles to the
+    /// grid (springs, horizons of 3.01 and 2.01 cells, 0, 15, 27 and 45 degrees).
+    const double first_share = std::sqrt(1. / 3.);
+
+    /// Critical stretches by bond, given by their row and slot.
+    template <int dim>
+    class BondLimits
+    {
+    public:
+      /// Collective.
+      /// @param with_shares whether shares() is asked for
+      BondLimits(const Body<dim>         &body,
+                 const DiscreteBody<dim> &discretisation,
+                 const BondList          &bonds,
+                 const bool               with_shares = false)
+        : body(body)
+        , families(*discretisation.families)
+      {
+        if (!body.parameters.model.calibrates_bonds())
+          return;
+        Calibration how;
+        how.fracture_of = [this](const auto id) {
+          return BondFracture{this->body.properties_of(id).fracture_energy, stretch_of_strength(id)};
+        };
+        how.law         = SofteningLaw(body.parameters.material.softening);
+        how.first_share = first_share;
+        how.with_shares = with_shares;
+        calibrated =
+          calibrate_stretches<dim>(families, bonds, *discretisation.model, solids_of_model(body), how);
+      }
+
+      double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
+      {
+        const auto near = families.material[i], far = families.material[j];
+        // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
+        if (calibrated.near.empty())
+          {
+            const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
+            return std::min(Failure<dim>::critical_stretch(body, near, horizon),
+                            Failure<dim>::critical_stretch(body, far, horizon));
+          }
+        const double of_near = square(near, calibrated.near[slot]),
+                     of_far  = square(far, calibrated.far[slot]);
+        return std::sqrt(near == far ? 0.5 * (of_near + of_far) : std::min(of_near, of_far));
+      }
+
+      /// The stretch at which a bond begins to soften: that of the tensile strength, of the weaker material,
+      /// or a share of the stretch at which it would break at once.
+      double first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
+      {
+        const auto of_end = [&](const LocalIndex end) {
+          const double of_strength = stretch_of_strength(families.material[end]);
+          return of_strength > 0 ? of_strength : first_share * (*this)(i, j, slot);
+        };
+        return std::min(of_end(i), of_end(j));
+      }
+
+      const EnergyByDirection &shares() const { return calibrated.shares; }
+
+    private:
+      /// The strain along a uniaxial stress of the tensile strength [-]; 0 of materials without one.
+      double stretch_of_strength(const dealii::types::material_id id) const
+      {
+        const ElasticConstants solid = body.solids.at(id).isotropic();
+        return body.properties_of(id).tensile_strength / solid.young_modulus *
+               (solid.assumption == PlaneAssumption::plane_strain ?
+                  1. - solid.poisson_ratio * solid.poisson_ratio :
+                  1.);
+      }
+
+      /// The square of the stretch for an end of a material.
+      double square(const dealii::types::material_id id, const double of_unit_energy) const
+      {
+        const double stretch = Failure<dim>::critical_stretch(body, id, 0.),
+                     energy  = body.properties_of(id).fracture_energy;
+        return std::isfinite(stretch)      ? stretch * stretch :
+               energy * of_unit_energy > 0 ? energy * of_unit_energy :
+                                             std::numeric_limits<double>::infinity();
+      }
+
+      const Body<dim>     &body;
+      const Families<dim> &families;
+      CalibratedStretches  calibrated;
+    };
   } // namespace
 
   template <int dim>
@@ -82,7 +169,7 @@ namespace perideal
     const MaterialProperties &material = body.properties_of(id);
     if (material.critical_stretch > 0)
       return material.critical_stretch;
-    if (material.fracture_energy > 0)
+    if (material.fracture_energy > 0 && !body.parameters.model.calibrates_bonds())
       return body.parameters.model.critical_stretch(
         body.solids.at(id).isotropic(), material.fracture_energy, horizon);
     return std::numeric_limits<double>::infinity();
@@ -109,14 +196,45 @@ namespace perideal
           *by_stress);
         return;
       }
-    force.set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
-      if (unbreakable[i] || unbreakable[j])
-        return std::numeric_limits<double>::infinity();
-      // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
-      const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
-      return std::min(critical_stretch(body, families.material[i], horizon),
-                      critical_stretch(body, families.material[j], horizon));
-    });
+    const BondList       &bonds = force.bond_list();
+    const BondLimits<dim> limits(body, discretisation, bonds);
+    force.set_critical_stretch(
+      [&](const LocalIndex i, const LocalIndex j) {
+        return unbreakable[i] || unbreakable[j] ? std::numeric_limits<double>::infinity() :
+                                                  limits(i, j, bonds.find(i, j));
+      },
+      SofteningLaw(body.parameters.material.softening),
+      [&](const LocalIndex i, const LocalIndex j) { return limits.first(i, j, bonds.find(i, j)); });
+  }
+
+  template <int dim>
+  typename Failure<dim>::Breaking Failure<dim>::breaking(const Body<dim>         &body,
+                                                         const DiscreteBody<dim> &discretisation)
+  {
+    const Families<dim>  &families = *discretisation.families;
+    const BondList       &bonds    = discretisation.weights->bonds;
+    const BondLimits<dim> limits(body, discretisation, bonds, true);
+    Breaking              result;
+    for (const auto id : body.mesh->material_ids)
+      {
+        double square = 0, number = 0;
+        for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+          for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+            if (const LocalIndex j = bonds.neighbour[slot];
+                j != i && families.material[i] == id && families.material[j] == id)
+              if (const double stretch = limits(i, j, slot); std::isfinite(stretch))
+                {
+                  square += stretch * stretch;
+                  ++number;
+                }
+        square = dealii::Utilities::MPI::sum(square, families.communicator);
+        number = dealii::Utilities::MPI::sum(number, families.communicator);
+        if (number > 0)
+          result.stretch[id] = std::sqrt(square / number);
+      }
+    if (body.parameters.model.calibrates_bonds())
+      result.share_of_energy = limits.shares();
+    return result;
   }
 
   template <int dim>

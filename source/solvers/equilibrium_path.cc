@@ -15,6 +15,8 @@ namespace perideal
   {
     /// Relative residual at which bonds are judged.
     constexpr double judge_tolerance = 1e-4;
+    /// How often the iterations of a load step are counted anew as bonds soften.
+    constexpr unsigned int most_patience = 20;
   } // namespace
 
   template <int dim>
@@ -74,10 +76,12 @@ namespace perideal
           return result;
         const bool at_rest =
           is_in_place() && residual <= std::max(controls.tolerance * reference, rounding.force);
-        const bool nearly = is_in_place() && !judged && residual <= judge_tolerance * reference;
+        const bool nearly = is_in_place() && !judged && !bonds.softening_bonds().softens() &&
+                            residual <= judge_tolerance * reference;
         if (controls.bonds_break && (at_rest || nearly))
           {
-            const GlobalIndex now = break_bonds(external);
+            const GlobalIndex now =
+              bonds.softening_bonds().softens() ? keep_softened() : break_bonds(external);
             result.broken += now;
             judged = now == 0;
             if (now > 0)
@@ -98,7 +102,10 @@ namespace perideal
           return result;
         if (!iterate(external, result))
           return result;
-        ++since_break;
+        const bool goes_on =
+          breaks.in_iteration && result.iterations < most_patience * controls.max_iterations;
+        since_break         = goes_on ? 0 : since_break + 1;
+        breaks.in_iteration = false;
         ++result.iterations;
       }
   }
@@ -178,6 +185,21 @@ namespace perideal
     balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
     breaks.total += now;
     breaks.in_step = breaks.in_segment = true;
+    return now;
+  }
+
+  template <int dim>
+  GlobalIndex EquilibriumPath<dim>::keep_softened()
+  {
+    bonds.judge_bonds(true);
+    compute_forces();
+    bonds.judge_bonds(false);
+    const GlobalIndex now = bonds.n_broken_now();
+    breaks.total += now;
+    if (bonds.softening_bonds().any_now(displacement.get_mpi_communicator()))
+      breaks.in_step = breaks.in_segment = breaks.in_iteration = true;
+    if (now > 0)
+      forget_motion();
     return now;
   }
 

@@ -45,7 +45,8 @@ namespace perideal
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
         velocity.local_element(k) -=
           0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
-    if (breaks.now > 0)
+    const SofteningBonds &softening = bonds.softening_bonds();
+    if (softening.softens() ? softening.any_now(displacement.get_mpi_communicator()) : breaks.now > 0)
       breaks.energy += bonds.released_energy(velocity, scheme.time_step);
 
     work.earlier_velocity.swap(velocity);

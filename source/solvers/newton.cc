@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace perideal
 {
@@ -16,6 +17,10 @@ namespace perideal
     constexpr double slope_left = 0.5;
     /// Forces of one search.
     constexpr unsigned int max_trials = 20;
+    /// Iterations by the secant after the tangent of softening bonds was of no use.
+    constexpr unsigned int without_tangent_in_a_row = 8;
+    /// Iterations that may pass before the residual is half of what it was.
+    constexpr unsigned int most_in_vain = 5;
     /// Stiffness of the springs that hold loose nodes over that of the nodes in the whole body.
     constexpr double anchor_share = 1e-8;
   } // namespace
@@ -38,7 +43,7 @@ namespace perideal
     , null_space(null_space)
     , anchors{find_floating, {}, 0}
   {
-    for (NodalVector *vector : {&held_increment, &start, &rest_stiffness, &anchors.place})
+    for (NodalVector *vector : {&held_increment, &searching.start, &rest_stiffness, &anchors.place})
       bonds.initialize(*vector);
     system.initialize(residual);
     system.initialize(correction);
@@ -108,6 +113,8 @@ namespace perideal
       }
     in_place = largest == 0.;
     linear.start_step();
+    searching.n_without_tangent = searching.n_in_vain = 0;
+    searching.least_residual                          = std::numeric_limits<double>::max();
     this->set_rounding(rest_stiffness);
   }
 
@@ -140,7 +147,7 @@ namespace perideal
     if (!in_place)
       {
         // The supports pull before they move.
-        tangent.linearise(this->bonds);
+        tangent.linearise(this->bonds, true);
         tangent.vmult(correction, held_increment);
         tangent.add_increments(correction);
         for (std::size_t k = 0; k < is_held.size(); ++k)
@@ -166,16 +173,12 @@ namespace perideal
   template <int dim>
   bool NewtonSolver<dim>::iterate(const NodalVector &external, EquilibriumStep &result)
   {
+    if (in_place && this->bonds.softening_bonds().softens())
+      return iterate_softening(external, result);
     if (in_place)
       tangent.linearise(this->bonds);
-    correction                = 0.;
-    const LinearSolve solving = linear.solve(correction, residual, std::min(relative_tolerance(), 0.5));
-    result.linear_iterations += solving.iterations;
-    if (!solving.converged)
-      {
-        result.problem = "the linear solver (" + linear.name() + ") did not converge";
-        return false;
-      }
+    if (!solve(result))
+      return false;
     if (in_place && search(external))
       return true;
     if (in_place)
@@ -193,14 +196,58 @@ namespace perideal
   }
 
   template <int dim>
+  bool NewtonSolver<dim>::solve(EquilibriumStep &result)
+  {
+    correction                = 0.;
+    const LinearSolve solving = linear.solve(correction, residual, std::min(relative_tolerance(), 0.5));
+    result.linear_iterations += solving.iterations;
+    if (!solving.converged)
+      result.problem = "the linear solver (" + linear.name() + ") did not converge";
+    return solving.converged;
+  }
+
+  template <int dim>
+  bool NewtonSolver<dim>::iterate_softening(const NodalVector &external, EquilibriumStep &result)
+  {
+    if (norms.residual < 0.25 * searching.least_residual)
+      {
+        searching.least_residual = norms.residual;
+        searching.n_in_vain      = 0;
+      }
+    if (searching.n_without_tangent == 0 && searching.n_in_vain < most_in_vain)
+      {
+        ++searching.n_in_vain;
+        tangent.linearise(this->bonds);
+        if (solve(result) && search(external))
+          return true;
+      }
+    searching.n_without_tangent =
+      (searching.n_without_tangent > 0 ? searching.n_without_tangent : without_tangent_in_a_row) - 1;
+    searching.n_in_vain = 0;
+    // There is no equilibrium nearby. What has softened until here stays so.
+    this->keep_softened();
+    tangent.linearise(this->bonds, true);
+    if (!solve(result))
+      return false;
+    result.problem.clear();
+    // Bonds that open and close would alternate without a search.
+    if (!search(external))
+      {
+        displacement += correction;
+        this->compute_forces();
+      }
+    return true;
+  }
+
+  template <int dim>
   bool NewtonSolver<dim>::search(const NodalVector &external)
   {
     const double norm = residual.l2_norm(), slope = correction * residual;
-    start        = displacement;
+    searching.start = displacement;
     double share = 1., low = 0., low_slope = slope, high = 0., high_slope = 0.;
     for (unsigned int trial = 0; trial < max_trials; ++trial)
       {
-        displacement = start;
+        displacement = searching.start;
         displacement.add(share, correction);
         this->compute_forces();
         compute_residual(external);
@@ -227,7 +274,7 @@ namespace perideal
         if (is_finite && slope > 0)
           share = low + (high - low) * std::clamp(low_slope / (low_slope - high_slope), 0.1, 0.9);
       }
-    displacement = start;
+    displacement = searching.start;
     this->compute_forces();
     return false;
   }

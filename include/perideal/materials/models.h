@@ -61,10 +61,12 @@ namespace perideal
     static constexpr const char *list[] = {"mean", "neighbour"};
   };
 
-  /// Whose critical stretch a fracture energy means.
+  /// Whose critical stretch a fracture energy means: that of the bonds as they stand, or of a formula.
   enum class StretchFormula
   {
     automatic,
+    bonds,
+    published,
     ordinary,
     tensor_involved
   };
@@ -72,7 +74,7 @@ namespace perideal
   template <>
   struct ChoiceNames<StretchFormula>
   {
-    static constexpr const char *list[] = {"automatic", "ordinary", "tensor involved"};
+    static constexpr const char *list[] = {"automatic", "bonds", "published", "ordinary", "tensor involved"};
   };
 
   /// The choices of sections "Material" and "Nodes" that say what a bond does.
@@ -140,7 +142,11 @@ namespace perideal
     /// bond-based body keeps Young's modulus, Poisson's ratio is its own.
     ElasticConstants constants_of_model(const ElasticConstants &constants) const;
 
-    /// The critical stretch [-] that a fracture energy means, of a model that breaks by stretch.
+    /// Whether critical stretches follow from the energy of the bonds as they stand; of resolved parameters.
+    bool calibrates_bonds() const { return stretch_formula == StretchFormula::bonds; }
+
+    /// The critical stretch [-] that a fracture energy means by a formula, of a model that breaks by stretch:
+    /// its own, where neither of the two others is asked for.
     /// @param given constants of the (nearest isotropic) solid
     /// @param fracture_energy [J/m^2]
     /// @param horizon [m]

@@ -4,6 +4,7 @@
 
 #include <perideal/parameters/elastic_solid.h>
 #include <perideal/parameters/elastic_symmetry.h>
+#include <perideal/parameters/softening.h>
 #include <perideal/parameters/stress_criteria.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -30,8 +31,8 @@ namespace perideal
     double fracture_energy = 0.;
     /// Stretch at which bonds break [-]; 0: from the fracture energy.
     double critical_stretch = 0.;
-    /// Strengths in uniaxial tension and compression [Pa]; no tensile strength: the material does not break
-    /// by stress.
+    /// Strengths in uniaxial tension and compression [Pa]. No tensile strength: the material does not break
+    /// by stress, and softening bonds begin where they follow the mesh least.
     double tensile_strength = 0., compressive_strength = 0.;
   };
 
@@ -46,6 +47,8 @@ namespace perideal
     PlaneAssumption assumption = PlaneAssumption::plane_stress;
     /// By which stress bonds break.
     FailureCriterion failure_criterion = "none";
+    /// How bonds that break by stretch lose their force.
+    Softening softening = "none";
     /// Properties of cells in no named group.
     MaterialProperties body;
     /// Whether the scene gives the constants of the body; they may be those of named groups only.
@@ -62,6 +65,9 @@ namespace perideal
 
     /// Whether bonds break by stress.
     bool has_criterion() const { return failure_criterion->utilisation != nullptr; }
+
+    /// Whether bonds that break by stretch soften first.
+    bool softens() const { return !softening->curve.empty(); }
 
     /// What a material is in @p dim dimensions.
     /// @throws InputError as check().

@@ -3,11 +3,14 @@
 #define perideal_problem_failure_h
 
 #include <perideal/fracture/no_fail_zones.h>
+#include <perideal/materials/separation.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/problem/discrete_body.h>
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace perideal
@@ -27,9 +30,21 @@ namespace perideal
     /// @throws InputError naming a precrack that crosses no bond.
     void check_precracks(const Body<dim> &body, const Families<dim> &families) const;
 
-    /// Returns the critical stretch of a material at a horizon [-]; infinity: unbreakable.
+    /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
+    /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
     static double
     critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
+
+    /// What the bonds of the body break at.
+    struct Breaking
+    {
+      /// Root of the mean square of the critical stretches within each material [-]; none: unbreakable.
+      std::map<dealii::types::material_id, double> stretch;
+      /// What cracks take of the fracture energy, by direction; none where a formula gives the stretches.
+      std::optional<EnergyByDirection> share_of_energy;
+    };
+    /// Looks at all bonds of a scene that breaks them by stretch. Collective.
+    static Breaking breaking(const Body<dim> &body, const DiscreteBody<dim> &discretisation);
 
     /// Cuts what precracks cross and gives bonds their limits. Collective.
     void apply(const Body<dim> &body, const DiscreteBody<dim> &discretisation, BondForce<dim> &force);

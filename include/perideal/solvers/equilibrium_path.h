@@ -45,7 +45,9 @@ namespace perideal
    *
    * Bonds are judged at equilibrium only, since the iterates between are no motion of the body: where the
    * residual has come below 1e-4, and again below the tolerance, all bonds beyond their limit break at
-   * once; equilibrium is then sought again, until none breaks.
+   * once; equilibrium is then sought again, until none breaks. Bonds that soften do so along with the search,
+   * each iterate by itself leaving them what it would if the body came to it from the last equilibrium; at
+   * rest that is for good.
    */
   template <int dim>
   class EquilibriumPath
@@ -132,6 +134,10 @@ namespace perideal
 
     void compute_forces();
 
+    /// Lets what softened at the present displacement be so for good; returns how many bonds broke.
+    /// Collective.
+    GlobalIndex keep_softened();
+
     /// Positions y are rounded by eps |y|: forgives what that makes of forces in a body whose nodes
     /// have these stiffnesses by component [N/m].
     void set_rounding(const NodalVector &stiffness);
@@ -163,6 +169,8 @@ namespace perideal
     {
       GlobalIndex total   = 0;
       bool        in_step = false, in_segment = false;
+      /// Bonds softened for good in the last iteration.
+      bool in_iteration = false;
     };
     Breaks breaks;
 

@@ -24,6 +24,11 @@ namespace perideal
    * Otherwise the step is shortened towards d.r = 0. Where d.r is not positive at the start, the tangent is
    * not positive definite there and |r| alone counts.
    *
+   * Where bonds soften, the tangent is that of bonds that go on to do so, as long as it leads on. Where it
+   * does not, as when a crack jumps, some iterations find the equilibrium of the bonds as they have softened
+   * until then and let them soften further there, for good: each of these linear systems is positive
+   * definite, and what is left of bonds only falls.
+   *
    * Where bonds break, fragments may become disconnected from the supports, which makes the tangent singular:
    * springs of 1e-8 of their stiffness hold each of their nodes where it was then. No load acts on them but
    * their own.
@@ -77,6 +82,10 @@ namespace perideal
     /// External and internal force of free components, motions that are free taken out.
     void   compute_residual(const NodalVector &external);
     double relative_tolerance() const;
+    /// Solves for the correction of the residual; tells the result of failures. Collective.
+    bool solve(EquilibriumStep &result);
+    /// iterate() of bonds that soften, with supports in place.
+    bool iterate_softening(const NodalVector &external, EquilibriumStep &result);
     /// Moves along the step as far as it helps; false where nothing did. Collective.
     bool search(const NodalVector &external);
 
@@ -100,8 +109,18 @@ namespace perideal
     /// What held components have still to move.
     NodalVector                          held_increment;
     bool                                 in_place = true;
-    NodalVector                          residual, correction, start, rest_stiffness;
+    NodalVector                          residual, correction, rest_stiffness;
     typename EquilibriumPath<dim>::Norms norms = {};
+
+    /// Where a line search begins; of bonds that soften, the iterations by the secant that are still to come,
+    /// the least squared residual of the step [N^2], and how long it has been.
+    struct Search
+    {
+      NodalVector  start;
+      unsigned int n_without_tangent = 0, n_in_vain = 0;
+      double       least_residual = 0;
+    };
+    Search searching;
   };
 } // namespace perideal
 

@@ -68,7 +68,8 @@ namespace perideal
   void BreakingBonds<dim>::move_nodes(const NodalVector                 &displacement,
                                       dealii::AlignedVector<NodeRecord> *records)
   {
-    n_lost_before             = this->lost.size();
+    n_lost_before = this->lost.size();
+    softening.begin(critical_stretch);
     const NodalVector *source = &displacement;
     if (families->n_local() > families->n_owned())
       {
@@ -94,14 +95,28 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch)
+  void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
+                                                const SofteningLaw                             &law,
+                                                const typename BondForce<dim>::CriticalStretch &first)
   {
-    critical_stretch.assign(bonds.n_slots(), never);
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (bonds.neighbour[slot] != i && carries_force(slot))
-          critical_stretch[slot] =
-            static_cast<float>(std::min<double>(stretch(i, bonds.neighbour[slot]), never));
+    const auto by_slot = [&](const typename BondForce<dim>::CriticalStretch &of_bond) {
+      std::vector<float> result(bonds.n_slots(), never);
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          if (bonds.neighbour[slot] != i && carries_force(slot))
+            result[slot] = static_cast<float>(std::min<double>(of_bond(i, bonds.neighbour[slot]), never));
+      return result;
+    };
+    critical_stretch = by_slot(stretch);
+    if (law.softens())
+      softening = SofteningBonds(law, critical_stretch, by_slot(first));
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::judge_bonds(const bool judge)
+  {
+    judges_bonds = judge;
+    softening.judge(judge);
   }
 
   template <int dim>
@@ -141,6 +156,16 @@ namespace perideal
   }
 
   template <int dim>
+  SofteningBonds::Change
+  BreakingBonds<dim>::overstretch(const BondIndex slot, const LocalIndex near, const double stretch)
+  {
+    const auto change = softening.soften(slot, stretch, critical_stretch[slot]);
+    if (change.breaks)
+      break_bond(slot, near);
+    return change;
+  }
+
+  template <int dim>
   void BreakingBonds<dim>::break_bond(const BondIndex slot, const LocalIndex near)
   {
     this->lost.push_back({slot, near, bonds.neighbour[slot]});
@@ -175,6 +200,32 @@ namespace perideal
         return BondArray{"-", 0, broken_bonds(), {}};
       },
       [this](const BondArray &array) { restore_broken(array.bonds); });
+    if (!softening.softens())
+      return;
+    state.add_bond_array(
+      "softened bonds",
+      "-",
+      2,
+      [this] {
+        BondArray result{"-", 2, {}, {}};
+        for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+          for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+            if (const double share = softening.share(slot, 1.); share > 0 && share < 1)
+              {
+                result.bonds.push_back({i, bonds.neighbour[slot]});
+                result.values.insert(result.values.end(), {critical_stretch[slot], share});
+              }
+        return result;
+      },
+      [this](const BondArray &array) {
+        for (std::size_t b = 0; b < array.bonds.size(); ++b)
+          if (const BondIndex slot = bonds.find(array.bonds[b].near, array.bonds[b].far);
+              slot != BondList::no_slot && carries_force(slot))
+            {
+              critical_stretch[slot] = static_cast<float>(array.values[2 * b]);
+              softening.restore(slot, array.values[2 * b + 1]);
+            }
+      });
   }
 
   template <int dim>
@@ -215,8 +266,9 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(rest_length) +
            memory_consumption(critical_stretch) + regions.memory_consumption() +
-           3 * memory_consumption(volumes.family) + this->lost.capacity() * sizeof(this->lost[0]) +
-           2 * position.size() * sizeof(NodeRecord) + ghosted.memory_consumption();
+           softening.memory_consumption() + 3 * memory_consumption(volumes.family) +
+           this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
+           ghosted.memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(BreakingBonds)

@@ -83,6 +83,7 @@ namespace perideal
             for (unsigned int a = 0; a < n_sums; ++a)
               magnitude +=
                 force_weight(a, {slot, true}) * state[a][i] + force_weight(a, {slot, false}) * state[a][j];
+            magnitude *= softening.share(slot, length - rest);
             visit(i, j, length > 0 ? magnitude * rest / length * y : dealii::Tensor<1, dim>());
           }
   }
@@ -100,13 +101,13 @@ namespace perideal
         {
           const LocalIndex j     = bonds.neighbour[slot];
           const double     eps   = motion(slot, i, j, at_rest).eps;
-          const double     share = j < n_owned ? 1. : 0.5;
-          result += share * 0.5 * stiffness(slot) * eps * eps;
+          const double     share = j < n_owned ? 1. : 0.5, carried = softening.share(slot, eps) * eps;
+          result += share * 0.5 * stiffness(slot) * carried * eps;
           if constexpr (own_force_weights)
             {
-              force[i][0] += force_weight(0, {slot, true}) * eps;
+              force[i][0] += force_weight(0, {slot, true}) * carried;
               if (j < n_owned)
-                force[j][0] += force_weight(0, {slot, false}) * eps;
+                force[j][0] += force_weight(0, {slot, false}) * carried;
             }
         }
     for (LocalIndex i = 0; i < n_owned; ++i)
@@ -165,7 +166,7 @@ namespace perideal
             const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                const double weight = force_weight(a, end);
+                const double weight = softening.share(end.slot, m.eps) * force_weight(a, end);
                 after.force[a] += weight * m.eps;
                 after.force_rate[a] += weight * m.rate;
               }

@@ -51,8 +51,10 @@ namespace perideal
             bond.near_force[a] = force_weight(a, {slot, true});
             bond.far_force[a]  = force_weight(a, {slot, false});
           }
+        const auto change =
+          this->overstretch(slot, i, critical_stretch[slot] + excess[lane] / rest_length[slot]);
+        bond.scale(change.before - change.after);
         broken_now.push_back(bond);
-        this->break_bond(slot, i);
       }
   }
 

@@ -9,7 +9,7 @@
 namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  template <bool can_break>
+  template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families()
   {
     for (unsigned int a = 0; a < n_sums; ++a)
@@ -36,7 +36,7 @@ namespace perideal
             sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
             const Lanes length = square_root(square);
             load(rest, rest_length.data() + k);
-            if constexpr (can_break)
+            if constexpr (failing != Failing::not_at_all)
               {
                 Lanes critical;
                 load(critical, critical_stretch.data() + k);
@@ -44,7 +44,9 @@ namespace perideal
                 if (__builtin_expect(any_negative(margin), false))
                   break_bonds(i, k, -margin);
               }
-            const Lanes extension = (length - rest) * rest * unit_sum;
+            Lanes extension = (length - rest) * rest * unit_sum;
+            if constexpr (failing == Failing::gradually)
+              softening.multiply(extension, k, length - rest);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
@@ -63,7 +65,7 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  template <bool can_break>
+  template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
   {
     const LocalIndex *neighbour    = bonds.neighbour.data();
@@ -92,7 +94,7 @@ namespace perideal
             sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
             const Lanes length = square_root(square + tiny);
             load(rest, rest_length.data() + k);
-            if constexpr (can_break)
+            if constexpr (n_sums == 0 && failing != Failing::not_at_all)
               {
                 Lanes critical;
                 load(critical, critical_stretch.data() + k);
@@ -116,6 +118,8 @@ namespace perideal
                 magnitude += by_states * unit_force;
               }
             magnitude *= rest / length;
+            if constexpr (failing == Failing::gradually)
+              softening.multiply(magnitude, k, length - rest);
             for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
               {
                 const Lanes pull = magnitude[lane] * bond[lane];
@@ -133,26 +137,28 @@ namespace perideal
   {
     broken_now.clear();
     this->move_nodes(displacement);
-    if (this->can_break() && reweigh)
+    if (!this->can_break())
+      compute_forces<Failing::not_at_all>(force);
+    else if (reweigh)
       compute_and_reweigh(force);
-    else if (this->can_break())
-      compute_forces<true>(force);
+    else if (softening.softens())
+      compute_forces<Failing::gradually>(force);
     else
-      compute_forces<false>(force);
+      compute_forces<Failing::at_once>(force);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  template <bool can_break>
+  template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
   void FamilyForce<dim, n_sums, own_force_weights>::compute_forces(NodalVector &force)
   {
     if constexpr (n_sums > 0)
       {
-        sum_over_families<can_break>();
+        sum_over_families<failing>();
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
-        sum_forces<false>();
       }
-    else
-      sum_forces<can_break>();
+    // The first pass has looked at the lengths.
+    constexpr bool has_failed = n_sums > 0 && failing == Failing::at_once;
+    sum_forces<has_failed ? Failing::not_at_all : failing>();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = forces[i].value[d];
@@ -160,8 +166,10 @@ namespace perideal
 
 #define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
-  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<true>(NodalVector &);            \
-  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<false>(NodalVector &);
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \
+    FamilyForce<dim, n_sums, own_force_weights>::Failing::at_once>(NodalVector &);                           \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \
+    FamilyForce<dim, n_sums, own_force_weights>::Failing::not_at_all>(NodalVector &);
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)
 #undef PERIDEAL_INSTANTIATE_SHAPE
 } // namespace perideal

@@ -41,16 +41,16 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyForce<dim, n_sums, own_force_weights>::compute_and_reweigh(NodalVector &force)
   {
-    compute_forces<false>(force);
+    compute_forces<Failing::not_at_all>(force);
     const unsigned int breaks = any_too_long();
     if (dealii::Utilities::MPI::max(breaks, families->communicator) == 0)
       return;
     force_change            = force;
     energy_before           = strain_energy();
     const std::size_t first = this->lost.size();
-    compute_forces<true>(force);
+    compute_forces<Failing::at_once>(force);
     reweigh_ends(first);
-    compute_forces<false>(force);
+    compute_forces<Failing::not_at_all>(force);
     force_change.sadd(-1., 1., force);
   }
 

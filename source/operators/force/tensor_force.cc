@@ -51,9 +51,11 @@ namespace perideal
     for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
       if (margin[lane] < 0)
         {
-          const BondIndex slot = first_slot + lane;
-          broken_now.push_back({i, bonds.neighbour[slot], tensor(slot)});
-          this->break_bond(slot, i);
+          const BondIndex slot  = first_slot + lane;
+          const auto      whole = tensor(slot);
+          const auto      change =
+            this->overstretch(slot, i, critical_stretch[slot] - margin[lane] / rest_length[slot]);
+          broken_now.push_back({i, bonds.neighbour[slot], (change.before - change.after) * whole});
         }
   }
 
@@ -62,7 +64,8 @@ namespace perideal
   void TensorForce<dim>::sum_forces()
   {
     const NodeRecord *y = position.data(), *u = displacements.data();
-    NodeRecord       *f = forces.data();
+    NodeRecord       *f       = forces.data();
+    const bool        softens = softening.softens();
     std::fill(forces.begin(), forces.end(), NodeRecord{});
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
@@ -75,7 +78,8 @@ namespace perideal
         Lanes       own = {};
         for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
           {
-            const LocalIndex *j = bonds.neighbour.data() + k;
+            const LocalIndex *j     = bonds.neighbour.data() + k;
+            Lanes             share = Lanes{} + 1.;
             if constexpr (can_break)
               {
                 const Lanes bond[4] = {
@@ -85,9 +89,11 @@ namespace perideal
                   square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
                 load(rest, rest_length.data() + k);
                 load(critical, critical_stretch.data() + k);
-                const Lanes margin = critical * rest - (square_root(square) - rest);
+                const Lanes longer = square_root(square) - rest, margin = critical * rest - longer;
                 if (__builtin_expect(any_negative(margin), false))
                   break_bonds(i, k, margin);
+                if (softens)
+                  softening.multiply(share, k, longer);
               }
             const Lanes eta[4] = {
               lanes(u[j[0]]) - ui, lanes(u[j[1]]) - ui, lanes(u[j[2]]) - ui, lanes(u[j[3]]) - ui};
@@ -97,8 +103,9 @@ namespace perideal
             transpose(pull, of_bond);
             for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
               {
-                own += of_bond[lane];
-                lanes(f[j[lane]]) -= of_bond[lane];
+                const Lanes force = can_break ? share[lane] * of_bond[lane] : of_bond[lane];
+                own += force;
+                lanes(f[j[lane]]) -= force;
               }
           }
         lanes(f[i]) += own;
@@ -129,12 +136,21 @@ namespace perideal
   }
 
   template <int dim>
+  double TensorForce<dim>::share_left(const BondIndex slot, const LocalIndex i, const LocalIndex j) const
+  {
+    double square = 0;
+    for (int d = 0; d < dim; ++d)
+      square += (position[j].value[d] - position[i].value[d]) * (position[j].value[d] - position[i].value[d]);
+    return softening.share(slot, std::sqrt(square) - rest_length[slot]);
+  }
+
+  template <int dim>
   void TensorForce<dim>::visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const
   {
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
-          visit(i, j, tensor(slot) * eta(i, j));
+          visit(i, j, share_left(slot, i, j) * (tensor(slot) * eta(i, j)));
   }
 
   template <int dim>
@@ -145,7 +161,7 @@ namespace perideal
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         {
           const LocalIndex j     = bonds.neighbour[slot];
-          const double     share = j < families->n_owned() ? 1. : 0.5;
+          const double     share = (j < families->n_owned() ? 1. : 0.5) * share_left(slot, i, j);
           const auto       e     = eta(i, j);
           result += share * 0.5 * (e * (tensor(slot) * e));
         }

@@ -59,7 +59,7 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceTangent<dim>::linearise(const BondForce<dim> &force)
+  void CorrespondenceTangent<dim>::linearise(const BondForce<dim> &force, const bool)
   {
     if (is_linear)
       return;

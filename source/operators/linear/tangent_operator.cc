@@ -28,16 +28,19 @@ namespace perideal
         deformation.tension.assign(weights->bonds.n_slots(), 0.);
       }
 
-      void linearise(const BondForce<dim> &force) override
+      void linearise(const BondForce<dim> &force, const bool secant) override
       {
         std::copy_n(force.positions(), positions.size(), positions.begin());
-        const BondList &bonds = weights->bonds;
-        BondIndex       slot  = 0;
+        const BondList       &bonds     = weights->bonds;
+        const SofteningBonds &softening = force.softening_bonds();
+        BondIndex             slot      = 0;
         force.visit_bond_forces(
           [&](const LocalIndex i, const LocalIndex j, const dealii::Tensor<1, dim> &pull) {
             while (bonds.neighbour[slot] != j || slot < bonds.row[i])
               ++slot; // padding
             set_bond(slot, i, j, pull);
+            if (softening.softens())
+              soften(slot, softening.left(slot, 1. / deformation.scale[slot] - 1.), secant);
             ++slot;
           });
         for (const auto &bond : force.lost_bonds())
@@ -66,6 +69,24 @@ namespace perideal
         deformation.tension[slot]   = tension;
         deformation.stiffness[slot] = weights->stiffness[weights->at(slot)] - tension / rest;
       }
+
+      /// With p the share g times what it was: the sums have g p then, and what goes with p p is divided by
+      /// g^2.
+      void soften(const BondIndex slot, const SofteningBonds::Left &left, const bool secant)
+      {
+        if (left.share == 1.)
+          return;
+        const double whole   = weights->stiffness[weights->at(slot)];
+        const double tension = deformation.tension[slot], stretched = 1. / deformation.scale[slot];
+        const double by_length = deformation.stiffness[slot] - whole; // -tension/|xi|^2
+        deformation.scale[slot] *= left.share;
+        if (left.share == 0.)
+          return;
+        double along = left.share * whole + by_length;
+        if (!secant && tension > 0)
+          along += -by_length * stretched / left.share * left.slope;
+        deformation.stiffness[slot] = along / (left.share * left.share);
+      }
     };
 
     /// The tangent of TensorForce, which is linear: only the lost bonds are missing.
@@ -82,18 +103,20 @@ namespace perideal
         this->partitioner = weights->families->make_partitioner(dim);
       }
 
-      void linearise(const BondForce<dim> &force) override
+      void linearise(const BondForce<dim> &force, const bool) override
       {
-        const auto &lost = force.lost_bonds();
-        if (lost.size() == n_lost)
+        const auto           &lost      = force.lost_bonds();
+        const SofteningBonds &softening = force.softening_bonds();
+        if (lost.size() == n_lost && !softening.softens())
           return;
         auto rest = std::make_shared<TensorWeights<dim>>(*weights);
         for (const auto &bond : lost)
           for (auto &values : rest->component)
             values[bond.slot] = 0.;
-        weights = rest;
-        whole   = std::make_unique<TensorOperator<dim>>(weights);
-        n_lost  = lost.size();
+        if (softening.softens())
+          scale_softened(force, *rest);
+        whole  = std::make_unique<TensorOperator<dim>>(rest);
+        n_lost = lost.size();
       }
 
       void vmult(NodalVector &force, const NodalVector &displacement) const override
@@ -114,6 +137,23 @@ namespace perideal
       std::size_t         memory_consumption() const override { return whole->memory_consumption(); }
 
     private:
+      void scale_softened(const BondForce<dim> &force, TensorWeights<dim> &rest) const
+      {
+        const NodeRecord *y = force.positions();
+        const auto       &x = rest.families->position;
+        for (LocalIndex i = 0; i < rest.bonds.n_rows(); ++i)
+          for (BondIndex slot = rest.bonds.row[i]; slot < rest.bonds.row[i + 1]; ++slot)
+            {
+              const LocalIndex       j = rest.bonds.neighbour[slot];
+              dealii::Tensor<1, dim> bond;
+              for (int d = 0; d < dim; ++d)
+                bond[d] = y[j].value[d] - y[i].value[d];
+              const double share = force.softening_bonds().share(slot, bond.norm() - x[i].distance(x[j]));
+              for (auto &values : rest.component)
+                values[slot] *= share;
+            }
+      }
+
       std::shared_ptr<const TensorWeights<dim>> weights;
       std::unique_ptr<TensorOperator<dim>>      whole;
       std::size_t                               n_lost = 0;

@@ -192,6 +192,47 @@ namespace
     expect_no_lost_bonds<3>();
   }
 
+  /// Springs that soften: exact. Where bonds know more than their ends, what a bond takes from the sums while
+  /// it softens is left out; the secant, the derivative with what is left of the bonds as it is, is exact.
+  template <int dim>
+  void expect_softening_tangent()
+  {
+    for_all<dim>([](TangentBody<dim> &body) {
+      body.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.12; },
+                                       SofteningLaw("linear"),
+                                       [](const LocalIndex, const LocalIndex) { return 0.04; });
+      body.deform();
+      if (body.weights->shape.n_sums == 0 && !body.weights->shape.bond_tensors)
+        {
+          body.bonds->judge_bonds(false);
+          body.bonds->compute(body.force, body.displacement);
+          body.tangent->linearise(*body.bonds);
+          // What is left of bonds is in single precision, which differences of forces over small steps feel.
+          EXPECT_LT(body.error_of_columns(), 2e-3);
+        }
+      // Judged and a little less deformed, bonds keep what is left.
+      body.bonds->judge_bonds(true);
+      body.bonds->compute(body.force, body.displacement);
+      EXPECT_TRUE(body.bonds->softening_bonds().any_now(MPI_COMM_WORLD));
+      EXPECT_EQ(body.bonds->n_broken_now(), 0u);
+      body.displacement *= 0.98;
+      body.bonds->judge_bonds(false);
+      body.bonds->compute(body.force, body.displacement);
+      body.tangent->linearise(*body.bonds, true);
+      EXPECT_LT(body.error_of_columns(), of_differences);
+    });
+  }
+
+  TEST(Tangent, Softening2D)
+  {
+    expect_softening_tangent<2>();
+  }
+
+  TEST(Tangent, Softening3D)
+  {
+    expect_softening_tangent<3>();
+  }
+
   template <int dim>
   void expect_linear_operator_at_rest()
   {

@@ -3,6 +3,7 @@
 #define perideal_operators_force_bond_force_h
 
 #include <perideal/base/lanes.h>
+#include <perideal/operators/force/softening_bonds.h>
 #include <perideal/operators/weights/family_weights.h>
 
 #include <deal.II/base/tensor.h>
@@ -22,7 +23,9 @@ namespace perideal
    *     F = ( sum_a weight[a]_j A_a + stiffness_j eps_j ) |xi| (y_j - y_i)/|y_j - y_i|,
    *
    * of which BondOperator is the linearisation at rest. Bonds may break: a bond whose length
-   * exceeds its limit loses all its weights, before the forces are summed, and for good.
+   * exceeds its limit loses all its weights, before the forces are summed, and for good. Or they soften: what
+   * is left of a bond (SofteningLaw) counts in sums and force, as long as it is stretched; pressed together
+   * it is whole.
    */
   template <int dim>
   class BondForce
@@ -34,10 +37,18 @@ namespace perideal
     using CriticalStretch = std::function<double(const LocalIndex, const LocalIndex)>;
 
     /// Makes bonds breakable from now on.
-    virtual void set_critical_stretch(const CriticalStretch &stretch) = 0;
+    /// @param law by which they soften before, taking as much energy (not where they break by stress)
+    /// @param first stretch where they begin to; may be empty where they break at once
+    virtual void set_critical_stretch(const CriticalStretch &stretch,
+                                      const SofteningLaw    &law   = SofteningLaw(),
+                                      const CriticalStretch &first = {}) = 0;
+
+    /// What softening has left of the bonds.
+    const SofteningBonds &softening_bonds() const { return softening; }
 
     /// Whether compute() looks for bonds to break, as it does at first. A solver that goes through
-    /// states which are no motion of the body lets it look at equilibrium only.
+    /// states which are no motion of the body lets it look at equilibrium only. Until then bonds that soften
+    /// have what a state leaves them if the body came to it from the last equilibrium.
     virtual void judge_bonds(const bool judge) = 0;
 
     /// Weighs the families of some owned nodes anew, of which bonds have broken. Collective.
@@ -125,6 +136,7 @@ namespace perideal
   protected:
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     std::vector<LostBond>                                      lost;
+    SofteningBonds                                             softening;
   };
 
   /// Creates the force of weighed bonds; it keeps its own copy of their weights.

@@ -21,13 +21,15 @@ namespace perideal
   class BreakingBonds : public BondForce<dim>
   {
   public:
-    void              set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch) override;
-    void              judge_bonds(const bool judge) override { judges_bonds = judge; }
-    GlobalIndex       cut(const BondPredicate<dim> &is_cut) override;
-    GlobalIndex       n_broken_now() const override;
-    void              register_state(LastingState &state) override;
-    const BondList   &bond_list() const override { return bonds; }
-    const NodeRecord *positions() const override { return position.data(); }
+    void                set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
+                                             const SofteningLaw                             &law = SofteningLaw(),
+                                             const typename BondForce<dim>::CriticalStretch &first = {}) override;
+    void                judge_bonds(const bool judge) override;
+    GlobalIndex         cut(const BondPredicate<dim> &is_cut) override;
+    GlobalIndex         n_broken_now() const override;
+    void                register_state(LastingState &state) override;
+    const BondList     &bond_list() const override { return bonds; }
+    const NodeRecord   *positions() const override { return position.data(); }
     std::vector<double> damage() const override { return share_of_family(volumes.broken); }
     std::vector<double> cut_share() const override { return share_of_family(volumes.cut); }
     double              share_computed() const override { return regions.share_awake(); }
@@ -46,13 +48,17 @@ namespace perideal
     /// Breaks bonds again that broke in an earlier run. Those that are no bonds here are left out.
     virtual void restore_broken(const std::vector<BondEnds> &broken);
 
-    /// Whether compute() has to look for bonds that break.
-    bool can_break() const { return judges_bonds && !critical_stretch.empty(); }
+    /// Whether compute() has to look for bonds that break or soften.
+    bool can_break() const { return (judges_bonds || softening.softens()) && !critical_stretch.empty(); }
 
     /// Takes the displacement; from here on bonds break now. Collective.
     /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
     /// null
     void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
+
+    /// Softens or breaks a bond of this stretch, which is beyond its limit; the caller has looked at its
+    /// weights.
+    SofteningBonds::Change overstretch(const BondIndex slot, const LocalIndex near, const double stretch);
 
     /// Breaks a bond, the weights of which the caller has looked at.
     void break_bond(const BondIndex slot, const LocalIndex near);
@@ -62,11 +68,13 @@ namespace perideal
 
     std::size_t breaking_memory() const;
 
+    using BondForce<dim>::softening;
+
     std::shared_ptr<const Families<dim>> families;
     BondList                             bonds;
     /// Lengths at rest by slot [m].
     std::vector<double> rest_length;
-    /// Stretches at which bonds break, by slot; empty where nothing breaks.
+    /// Stretches beyond which bonds break or go on to soften, by slot; empty where nothing breaks.
     std::vector<float>                critical_stretch;
     RestRegions                       regions;
     dealii::AlignedVector<NodeRecord> position, forces;

@@ -55,13 +55,21 @@ namespace perideal
   private:
     using States = std::array<double, n_sums>;
 
-    /// A bond that broke in the last compute(), with the weights it had.
+    /// A bond that broke or softened in the last compute(), with the weights it lost.
     struct BrokenBond
     {
       BondIndex  slot;
       LocalIndex near, far;
       States     near_sum, far_sum, near_force, far_force;
       double     stiffness;
+
+      void scale(const double share)
+      {
+        stiffness *= share;
+        for (States *weights : {&near_sum, &far_sum, &near_force, &far_force})
+          for (double &weight : *weights)
+            weight *= share;
+      }
     };
 
     /// Sums over a family before or after a break: with sum and force weights, and
@@ -78,6 +86,7 @@ namespace perideal
     using BreakingBonds<dim>::regions;
     using BreakingBonds<dim>::position;
     using BreakingBonds<dim>::forces;
+    using BreakingBonds<dim>::softening;
 
     bool carries_force(const BondIndex slot) const override;
     void clear_weights(const BondIndex slot) override;
@@ -95,23 +104,30 @@ namespace perideal
 
     /// Copies weights, which become single precision. Collective.
     void take(const Weights &weights);
-    /// Sums and forces of the bonds there are; with can_break, those too long break before.
-    template <bool can_break>
+    /// What compute() does to bonds that are too long.
+    enum class Failing
+    {
+      not_at_all,
+      at_once,
+      gradually
+    };
+    /// Sums and forces of the bonds there are, after those too long have failed.
+    template <Failing failing>
     void compute_forces(NodalVector &force);
-    /// As compute_forces<true>(), with families weighed anew where bonds break.
+    /// As compute_forces<at_once>(), with families weighed anew where bonds break.
     void compute_and_reweigh(NodalVector &force);
     bool any_too_long() const;
     /// Weighs the families of the owned ends of bonds anew.
     /// @param first of the lost bonds
     void reweigh_ends(const std::size_t first);
 
-    /// The passes over all bonds; @p can_break: with the check of lengths.
-    template <bool can_break>
+    /// The passes over all bonds; lengths are checked in the first.
+    template <Failing failing>
     void sum_over_families();
-    template <bool can_break>
+    template <Failing failing>
     void sum_forces();
 
-    /// Breaks those of a group of bonds that are too long.
+    /// Breaks or softens those of a group of bonds that are too long.
     /// @param excess of their lengths over the largest ones [m]
     void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &excess);
 

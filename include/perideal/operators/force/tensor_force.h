@@ -42,8 +42,9 @@ namespace perideal
     using BreakingBonds<dim>::regions;
     using BreakingBonds<dim>::position;
     using BreakingBonds<dim>::forces;
+    using BreakingBonds<dim>::softening;
 
-    /// A bond that broke in the last compute(), with the tensor it had.
+    /// A bond that broke or softened in the last compute(), with the tensor it lost.
     struct BrokenBond
     {
       LocalIndex                      near, far;
@@ -55,12 +56,15 @@ namespace perideal
 
     template <bool can_break>
     void sum_forces();
-    /// Breaks those of a group of bonds that are too long.
+    /// Breaks or softens those of a group of bonds that are too long.
     /// @param margin of their lengths below the largest ones [m]
     void break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin);
 
     /// The tensor as it is [N/m].
     dealii::SymmetricTensor<2, dim> tensor(const BondIndex slot) const { return unit * tensors.at(slot); }
+
+    /// What softening has left of a bond's tensor.
+    double share_left(const BondIndex slot, const LocalIndex i, const LocalIndex j) const;
 
     /// u_j - u_i.
     dealii::Tensor<1, dim> eta(const LocalIndex i, const LocalIndex j) const;

@@ -43,7 +43,7 @@ namespace perideal
                        const SolidOf<dim>                                &solid_of);
 
     /// @param force a ConsistentForce of the same moments and bonds
-    void linearise(const BondForce<dim> &force) override;
+    void linearise(const BondForce<dim> &force, const bool secant = false) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;

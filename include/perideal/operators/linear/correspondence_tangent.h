@@ -25,7 +25,7 @@ namespace perideal
                           const LawsByMaterial<dim>                            &laws);
 
     /// @param force a CorrespondenceForce of the same rows
-    void linearise(const BondForce<dim> &force) override;
+    void linearise(const BondForce<dim> &force, const bool secant = false) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;

@@ -19,7 +19,8 @@ namespace perideal
    * g/|xi|^2,
    *
    * where the sums of families change by d s_a = sum_j sum[a]_j p.(du_j - du_i). Bonds that were cut or
-   * broke carry nothing.
+   * broke carry nothing. A bond that softens adds m dg/deps/g p.(du_j - du_i) p with the share g of its
+   * weights that is left; what it takes from the sums of its families meanwhile is left out.
    *
    * The weights are in double precision, those of the force in single: the tangent is exact up to the
    * rounding of the latter.
@@ -30,7 +31,8 @@ namespace perideal
   public:
     /// Takes the state of the last compute() of the force, which is of the same weights. Until the first
     /// call the body is at rest and has all its bonds.
-    virtual void linearise(const BondForce<dim> &force) = 0;
+    /// @param secant leaves out how softening bonds go on to soften, so that the tangent stays positive
+    virtual void linearise(const BondForce<dim> &force, const bool secant = false) = 0;
 
     /// Adds the force [N] by what prescribed face values, which the operator itself carries, have still to
     /// move; nothing where it carries none. Collective.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_softening_bonds_h
+#define perideal_operators_force_softening_bonds_h
+
+#include <perideal/base/lanes.h>
+#include <perideal/base/types.h>
+#include <perideal/parameters/softening.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Keeps what is left of bonds that soften (SofteningLaw), by slot: a share of all their weights, as long as
+   * they are stretched; pressed together they are whole. The stretch beyond which a bond goes on to soften is
+   * its limit, which the force holds that lengths are checked against.
+   *
+   * Where bonds are not judged, a change lasts until the next begin() only: each state is seen as if the body
+   * came to it from the last one that was judged.
+   */
+  class SofteningBonds
+  {
+  public:
+    /// Bonds break at once.
+    SofteningBonds() = default;
+
+    /// @param limits critical stretches of bonds that break at once, which become those where they begin to
+    /// soften
+    /// @param first where bonds are to begin; where a bond could not open stably, it breaks at once
+    SofteningBonds(const SofteningLaw &law, std::vector<float> &limits, const std::vector<float> &first);
+
+    bool softens() const { return law.softens(); }
+
+    void judge(const bool for_good) { judges = for_good; }
+
+    /// Before the bonds of a state are looked at.
+    void begin(std::vector<float> &limits);
+
+    /// Whether a bond of any rank softened since begin(). Collective.
+    bool any_now(MPI_Comm communicator) const;
+
+    /// Shares of its weights that a bond had and has left.
+    struct Change
+    {
+      double before = 1, after = 0;
+      /// For good.
+      bool breaks = true;
+    };
+    /// Softens a bond whose stretch is beyond its limit.
+    Change soften(const BondIndex slot, const double stretch, float &limit);
+
+    /// Share g of its weights that a bond has at this stretch [-], and dg/ds where it goes on to soften.
+    struct Left
+    {
+      double share = 1, slope = 0;
+    };
+    Left left(const BondIndex slot, const double stretch) const;
+
+    /// The share alone, of a bond that is this much longer than at rest.
+    double share(const BondIndex slot, const double longer) const
+    {
+      return shares.empty() || longer <= 0 ? 1. : shares[slot];
+    }
+    /// Multiplies what four bonds have by their shares.
+    PERIDEAL_INLINE void multiply(Lanes &value, const BondIndex first_slot, const Lanes &longer) const
+    {
+      Lanes of_bonds;
+      load(of_bonds, shares.data() + first_slot);
+      value *= longer > 0 ? of_bonds : Lanes{} + 1.;
+    }
+
+    /// Sets what an earlier run left of a bond.
+    void restore(const BondIndex slot, const double share) { shares[slot] = static_cast<float>(share); }
+
+    std::size_t memory_consumption() const;
+
+  private:
+    SofteningLaw law;
+    /// g, s_0 and s_d^2 of the law, by slot; empty where bonds break at once.
+    std::vector<float> shares, first, brittle_square;
+    /// Whether changes are for good, and were so since begin().
+    bool judges = true, judged = true;
+    /// A bond that softened since begin(), with what it was before.
+    struct Trial
+    {
+      BondIndex slot;
+      float     limit, share;
+    };
+    std::vector<Trial> now;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_weights_calibrated_stretches_h
+#define perideal_operators_weights_calibrated_stretches_h
+
+#include <perideal/materials/separation.h>
+#include <perideal/neighbourhood/bond_list.h>
+#include <perideal/neighbourhood/families.h>
+
+#include <functional>
+#include <vector>
+
+namespace perideal
+{
+  /// What of a material decides at which stretches its bonds fail.
+  struct BondFracture
+  {
+    /// [J/m^2]; 0: its bonds do not break, or not by this.
+    double energy = 0;
+    /// Where bonds begin to soften [-]; 0: each at a share of its critical stretch.
+    double first = 0;
+  };
+
+  /// How bonds are calibrated.
+  struct Calibration
+  {
+    std::function<BondFracture(const dealii::types::material_id)> fracture_of;
+    SofteningLaw                                                  law;
+    /// Share of the critical stretch at which bonds begin to soften whose material does not say it.
+    double first_share = 1.;
+    /// Whether the energies by direction are looked at, too.
+    bool with_shares = false;
+  };
+
+  /// Critical stretches by which cracks take the fracture energy, as the bonds of whole families stand
+  /// (Separation): what the families of either end make of them. Bonds that soften have them for s_d.
+  struct CalibratedStretches
+  {
+    /// Squares of the stretches for a unit of fracture energy, by slot [m^2/J]; 0 where a family has no say.
+    std::vector<double> near, far;
+    /// What planes take of the fracture energy, by direction, on the mean over the families [-].
+    EnergyByDirection shares;
+  };
+
+  /// Calibrates the bonds of all families of materials that break, as if no bond was cut. Collective.
+  template <int dim>
+  CalibratedStretches calibrate_stretches(const Families<dim> &families,
+                                          const BondList      &bonds,
+                                          LinearModel<dim>    &model,
+                                          const SolidOf<dim>  &solid_of,
+                                          const Calibration   &how);
+} // namespace perideal
+
+#endif

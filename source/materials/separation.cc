@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/materials/separation.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace perideal
+{
+  template <int dim>
+  Separation<dim>::Separation(const FamilyView<dim>    &family,
+                              const FamilyCoefficients &coefficients,
+                              const FamilyShape        &shape)
+    : family(family)
+    , coefficients(coefficients)
+    , shape(shape)
+    , place(family.size)
+    , reach(family.size)
+    , opening(family.size)
+  {
+  }
+
+  template <int dim>
+  double Separation<dim>::of_sums(const std::array<double, 2> &sums, const double force) const
+  {
+    if (shape.own_force_weights)
+      return 2. * sums[0] * (force + coefficients.energy * sums[0]);
+    const auto &map = coefficients.map;
+    return shape.n_sums == 0 ?
+             0. :
+           shape.n_sums == 1 ?
+             map[0] * sums[0] * sums[0] :
+             map[0] * sums[0] * sums[0] + 2. * map[1] * sums[0] * sums[1] + map[2] * sums[1] * sums[1];
+  }
+
+  template <int dim>
+  double Separation<dim>::of_bond(const LocalIndex j, const Vector &normal) const
+  {
+    if (!shape.bond_tensors)
+      return coefficients.stiffness[j] * reach[j] * reach[j];
+    dealii::SymmetricTensor<2, dim> tensor;
+    for (unsigned int c = 0; c < tensor.n_independent_components; ++c)
+      tensor.access_raw_entry(c) = coefficients.tensor[c][j];
+    return normal * (tensor * normal);
+  }
+
+  template <int dim>
+  void Separation<dim>::find_across(const Vector &normal)
+  {
+    across.clear();
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        reach[j] = 0;
+        for (int d = 0; d < dim; ++d)
+          reach[j] += family.bond[d][j] * normal[d];
+        if (reach[j] > 1e-9 * family.horizon)
+          across.push_back(j);
+      }
+    std::sort(across.begin(), across.end(), [&](const LocalIndex a, const LocalIndex b) {
+      return reach[a] > reach[b];
+    });
+  }
+
+  template <int dim>
+  void Separation<dim>::add_side(const Vector              &normal,
+                                 const std::vector<double> &squares,
+                                 std::vector<double>       &by_member)
+  {
+    find_across(normal);
+    for (std::size_t k = 0; k < across.size(); ++k)
+      {
+        const LocalIndex j          = across[k];
+        const double     of_stretch = family.length_square[j] / reach[j];
+        place[j]                    = k;
+        opening[j]                  = squares[j] * of_stretch * of_stretch;
+      }
+    order = across;
+    std::sort(order.begin(), order.end(), [&](const LocalIndex a, const LocalIndex b) {
+      return opening[a] < opening[b];
+    });
+    // Planes between the projections of two members cut all bonds that reach farther.
+    for (std::size_t n = 1; n <= across.size(); ++n)
+      {
+        const double width = reach[across[n - 1]] - (n < across.size() ? reach[across[n]] : 0.);
+        if (width <= 1e-12 * family.horizon)
+          continue;
+        std::array<double, 2> sums  = {{0., 0.}};
+        double                force = 0;
+        for (std::size_t k = 0; k < n; ++k)
+          {
+            const LocalIndex j = across[k];
+            for (unsigned int a = 0; a < shape.n_sums; ++a)
+              sums[a] += coefficients.sum[a][j] * reach[j];
+            if (shape.own_force_weights)
+              force += coefficients.force_weight[0][j] * reach[j];
+          }
+        double twice = of_sums(sums, force);
+        for (const LocalIndex j : order)
+          {
+            if (place[j] >= n)
+              continue;
+            for (unsigned int a = 0; a < shape.n_sums; ++a)
+              sums[a] -= coefficients.sum[a][j] * reach[j];
+            if (shape.own_force_weights)
+              force -= coefficients.force_weight[0][j] * reach[j];
+            const double after = of_sums(sums, force);
+            by_member[j] +=
+              0.5 * width * opening[j] * (of_bond(j, normal) + twice - after) / family.node_volume;
+            twice = after;
+          }
+      }
+  }
+
+  template <int dim>
+  double Separation<dim>::energy(const Vector              &normal,
+                                 const std::vector<double> &squares,
+                                 std::vector<double>       &by_member)
+  {
+    by_member.assign(family.size, 0.);
+    add_side(normal, squares, by_member);
+    add_side(-normal, squares, by_member);
+    return std::accumulate(by_member.begin(), by_member.end(), 0.);
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>>
+  Separation<dim>::directions_of_bonds(const unsigned int max_normals) const
+  {
+    std::vector<Vector> all, result;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        Vector bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = family.bond[d][j];
+        all.push_back(bond / bond.norm());
+      }
+    // One after another, that which is farthest from those there are.
+    std::vector<double> nearness(all.size(), 0.);
+    while (result.size() < std::min<std::size_t>(max_normals, all.size()))
+      {
+        const auto next = std::min_element(nearness.begin(), nearness.end()) - nearness.begin();
+        if (nearness[next] > 1. - 1e-6)
+          break;
+        result.push_back(all[next]);
+        for (std::size_t k = 0; k < all.size(); ++k)
+          nearness[k] = std::max(nearness[k], std::abs(all[k] * result.back()));
+      }
+    return result;
+  }
+
+  template <int dim>
+  double Separation<dim>::share_of(const Vector              &normal,
+                                   const std::vector<double> &squares,
+                                   const BondFailing         &how,
+                                   std::vector<double>       &by_member)
+  {
+    const double at_once = energy(normal, squares, by_member);
+    if (!how.law.softens() || shape.n_sums == 0 || !(at_once > 0))
+      return at_once;
+    const double softened = softened_side(normal, squares, how) + softened_side(-normal, squares, how);
+    for (double &of_member : by_member)
+      of_member *= softened / at_once;
+    return softened;
+  }
+
+  template <int dim>
+  std::vector<double> Separation<dim>::calibrate(const BondFailing &how,
+                                                 const unsigned int max_normals,
+                                                 const unsigned int n_steps)
+  {
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+    // Share of the mean square of the rows that keeps stretches alike, and what a step may change.
+    constexpr double regularisation = 0.01, largest_change = 0.3;
+
+    const std::vector<Vector> normals = directions_of_bonds(max_normals);
+    std::vector<double>       squares(family.size, 1.), by_member;
+    if (normals.empty())
+      return std::vector<double>(family.size, 0.);
+    MatrixXd matrix(normals.size(), family.size);
+    VectorXd energies(normals.size());
+    for (unsigned int step = 0; step <= n_steps; ++step)
+      {
+        for (Eigen::Index n = 0; n < energies.size(); ++n)
+          {
+            energies[n]   = share_of(normals[n], squares, how, by_member);
+            matrix.row(n) = Eigen::Map<const VectorXd>(by_member.data(), family.size).transpose();
+          }
+        const double mean = energies.mean();
+        if (!(mean > 0))
+          return std::vector<double>(family.size, 0.);
+        if (step == 0 || step == n_steps)
+          {
+            // What is left of differences counts for no direction more than for another.
+            for (double &square : squares)
+              square /= mean;
+            matrix /= mean;
+            energies /= mean;
+          }
+        if (step == n_steps)
+          break;
+        MatrixXd normal_matrix = matrix * matrix.transpose();
+        normal_matrix.diagonal().array() += regularisation * normal_matrix.trace() / energies.size();
+        const VectorXd change =
+          matrix.transpose() * normal_matrix.llt().solve(VectorXd::Ones(energies.size()) - energies);
+        for (LocalIndex j = 0; j < family.size; ++j)
+          squares[j] *= 1. + std::clamp(change[j], -largest_change, largest_change);
+      }
+    return squares;
+  }
+
+  template <int dim>
+  double Separation<dim>::softened_side(const Vector              &normal,
+                                        const std::vector<double> &squares,
+                                        const BondFailing         &how)
+  {
+    // In equal steps of log(w); W is the energy of what is left of the bonds, for planes at all distances.
+    constexpr unsigned int n_steps = 100;
+    find_across(normal);
+    double     lowest = std::numeric_limits<double>::infinity(), highest = 0;
+    const auto stretches_of = [&](const LocalIndex j) {
+      const double square = how.energy * squares[j];
+      return std::make_pair(how.first > 0 ? how.first : how.first_share * std::sqrt(square), square);
+    };
+    for (const LocalIndex j : across)
+      {
+        const auto [first, square] = stretches_of(j);
+        const double of_stretch    = family.length_square[j] / reach[j];
+        const bool   softens       = how.law.is_stable(first, square);
+        lowest                     = std::min(lowest, of_stretch * (softens ? first : std::sqrt(square)));
+        highest = std::max(highest, of_stretch * (softens ? how.law.last(first, square) : std::sqrt(square)));
+      }
+    if (!(highest > 0) || !(lowest > 0))
+      return 0;
+    const double width = std::log(highest / lowest) / n_steps;
+    double       work  = 0;
+    for (unsigned int step = 0; step <= n_steps; ++step)
+      {
+        // Below the first point all bonds are whole, and W grows with w^2.
+        const double          w     = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
+        std::array<double, 2> sums  = {{0., 0.}};
+        double                force = 0, alone = 0, energy = 0;
+        for (std::size_t n = 0; n < across.size(); ++n)
+          {
+            const LocalIndex j         = across[n];
+            const auto [first, square] = stretches_of(j);
+            const double stretch       = w * reach[j] / family.length_square[j];
+            const double share         = how.law.is_stable(first, square) ?
+                                           (stretch > first ? how.law.carried(stretch, first, square) : 1.) :
+                                           (stretch * stretch < square ? 1. : 0.);
+            for (unsigned int a = 0; a < shape.n_sums; ++a)
+              sums[a] += share * coefficients.sum[a][j] * reach[j];
+            if (shape.own_force_weights)
+              force += share * coefficients.force_weight[0][j] * reach[j];
+            alone += share * of_bond(j, normal);
+            const double layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
+            energy += layer * (alone + of_sums(sums, force));
+          }
+        work += (step == 0 ? 0.5 : width) * w * w * energy;
+      }
+    return work / (family.node_volume * how.energy);
+  }
+
+  template <int dim>
+  EnergyByDirection Separation<dim>::by_direction(const std::vector<double> &squares, const BondFailing &how)
+  {
+    using dealii::numbers::PI;
+    constexpr unsigned int n = dim == 2 ? 36 : 64;
+    EnergyByDirection      result{0., std::numeric_limits<double>::infinity(), 0.};
+    std::vector<double>    by_member;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        // A half of all directions; in 3-D on a Fibonacci spiral.
+        const double angle = dim == 2 ? PI * k / n : PI * (3. - std::sqrt(5.)) * k;
+        const double z = dim == 2 ? 0. : (k + 0.5) / n, r = std::sqrt(1. - z * z);
+        Vector       normal;
+        normal[0]             = r * std::cos(angle);
+        normal[1]             = r * std::sin(angle);
+        normal[dim - 1]       = dim == 2 ? normal[1] : z;
+        const double of_plane = share_of(normal, squares, how, by_member);
+        result.mean += of_plane / n;
+        result.smallest = std::min(result.smallest, of_plane);
+        result.largest  = std::max(result.largest, of_plane);
+      }
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(Separation)
+} // namespace perideal

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/force/softening_bonds.h>
+
+#include <deal.II/base/memory_consumption.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  SofteningBonds::SofteningBonds(const SofteningLaw       &law,
+                                 std::vector<float>       &limits,
+                                 const std::vector<float> &first)
+    : law(law)
+    , shares(limits.size(), 1.f)
+    , first(limits)
+    , brittle_square(limits)
+  {
+    for (BondIndex slot = 0; slot < limits.size(); ++slot)
+      {
+        const double square  = static_cast<double>(limits[slot]) * limits[slot];
+        brittle_square[slot] = static_cast<float>(square);
+        if (law.is_stable(first[slot], square))
+          this->first[slot] = limits[slot] = first[slot];
+      }
+  }
+
+  void SofteningBonds::begin(std::vector<float> &limits)
+  {
+    // The last change of a bond first, should it have changed twice.
+    if (!judged)
+      for (auto trial = now.rbegin(); trial != now.rend(); ++trial)
+        {
+          limits[trial->slot] = trial->limit;
+          shares[trial->slot] = trial->share;
+        }
+    judged = judges;
+    now.clear();
+  }
+
+  bool SofteningBonds::any_now(MPI_Comm communicator) const
+  {
+    return dealii::Utilities::MPI::max(now.empty() ? 0u : 1u, communicator) > 0;
+  }
+
+  SofteningBonds::Change SofteningBonds::soften(const BondIndex slot, const double stretch, float &limit)
+  {
+    if (!softens())
+      return {};
+    now.push_back({slot, limit, shares[slot]});
+    Change result;
+    result.before = shares[slot];
+    result.after  = law.is_stable(first[slot], brittle_square[slot]) ?
+                      std::min(result.before, law.carried(stretch, first[slot], brittle_square[slot])) :
+                      0.;
+    shares[slot]  = static_cast<float>(result.after);
+    result.after  = shares[slot];
+    result.breaks = judges && result.after == 0;
+    limit         = static_cast<float>(stretch);
+    return result;
+  }
+
+  SofteningBonds::Left SofteningBonds::left(const BondIndex slot, const double stretch) const
+  {
+    Left result;
+    result.share = share(slot, stretch);
+    // On its way down, it is what the law says of this stretch.
+    if (result.share > 0 && result.share < 1 &&
+        std::abs(law.carried(stretch, first[slot], brittle_square[slot]) - result.share) <= 1e-6)
+      result.slope = law.slope(stretch, first[slot], brittle_square[slot]);
+    return result;
+  }
+
+  std::size_t SofteningBonds::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(shares) + memory_consumption(first) + memory_consumption(brittle_square) +
+           now.capacity() * sizeof(Trial);
+  }
+} // namespace perideal

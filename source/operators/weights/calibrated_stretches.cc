@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/operators/weights/calibrated_stretches.h>
+#include <perideal/operators/weights/equal_families.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
+
+namespace perideal
+{
+  namespace
+  {
+    /// The cost goes with the square of the number of members and that of the normals: large families that
+    /// are all different, as in unstructured meshes of solids, are only scaled.
+    constexpr unsigned int most_normals = 24, few_normals = 8, n_steps = 5, large_family = 64;
+
+    /// What a family makes of its bonds.
+    struct Calibrated
+    {
+      std::vector<double> squares;
+      EnergyByDirection   shares;
+    };
+
+    template <int dim>
+    Calibrated calibrate(const FamilyView<dim> &family,
+                         LinearModel<dim>      &model,
+                         const Calibration     &how,
+                         const BondFracture    &fracture,
+                         const bool             is_one_of_many)
+    {
+      FamilyCoefficients coefficients;
+      const FamilyShape  shape = model.shape();
+      coefficients.resize(family.size, shape);
+      model.compute(family, coefficients);
+      Separation<dim>   separation(family, coefficients, shape);
+      Calibrated        result;
+      const bool        only_scale = is_one_of_many && family.size > large_family;
+      const BondFailing failing{how.law, fracture.energy, fracture.first, how.first_share};
+      result.squares =
+        separation.calibrate(failing, only_scale ? few_normals : most_normals, only_scale ? 0 : n_steps);
+      if (how.with_shares)
+        result.shares = separation.by_direction(result.squares, failing);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  CalibratedStretches calibrate_stretches(const Families<dim> &families,
+                                          const BondList      &bonds,
+                                          LinearModel<dim>    &model,
+                                          const SolidOf<dim>  &solid_of,
+                                          const Calibration   &how)
+  {
+    const bool          many_equal = !model.depends_on_node() && EqualFamilies<dim>::are_many(families);
+    EqualFamilies<dim>  equal(families);
+    CalibratedStretches result;
+    result.near.assign(bonds.n_slots(), 0.);
+    result.far = result.near;
+    BondCursor                   cursor(bonds);
+    std::vector<BondCursor::End> ends;
+    FamilyView<dim>              family;
+    // Of the different families, in the order of their numbers; of the last one where all may differ.
+    std::vector<Calibrated> known;
+    std::vector<LocalIndex> codes, first_code;
+    // Number of families, and sums of their shares.
+    std::array<double, 4>      sums     = {};
+    dealii::types::material_id material = dealii::numbers::invalid_material_id;
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      {
+        // The cursor goes from family to family.
+        cursor.find(i, families.begin(i), families.end(i), ends);
+        const BondFracture fracture = how.fracture_of(families.material[i]);
+        if (!(fracture.energy > 0))
+          continue;
+        family.reinit(families, i);
+        if (families.material[i] != material)
+          {
+            material = families.material[i];
+            family.set_solid(solid_of(material));
+          }
+        typename EqualFamilies<dim>::Match match{0, true};
+        if (many_equal)
+          match = equal.find(family, material, codes);
+        else
+          known.clear();
+        if (match.is_new)
+          {
+            known.push_back(calibrate(family, model, how, fracture, !many_equal));
+            first_code.push_back(many_equal && family.size > 0 ? codes.front() : 0);
+          }
+        const Calibrated &own = known[match.number];
+        for (LocalIndex k = 0; k < family.size; ++k)
+          {
+            const BondCursor::End &end = ends[family.member[k]];
+            (end.is_near ? result.near : result.far)[end.slot] =
+              own.squares[many_equal ? codes[k] - first_code[match.number] : k];
+          }
+        const std::array<double, 4> more = {{1., own.shares.mean, own.shares.smallest, own.shares.largest}};
+        for (unsigned int m = 0; m < more.size(); ++m)
+          sums[m] += more[m];
+      }
+    exchange_cut_bonds(families, bonds, {result.near.data()}, {result.far.data()});
+    for (double &sum : sums)
+      sum = dealii::Utilities::MPI::sum(sum, families.communicator);
+    if (sums[0] > 0)
+      result.shares = {sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]};
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE(calibrate_stretches)
+} // namespace perideal

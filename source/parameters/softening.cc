@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/parameters/softening.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    using Curve = std::vector<std::pair<double, double>>;
+
+    /// exp(-x) up to where a hundredth of the force is left, in lines that end at zero, of the area 1.
+    Curve exponential()
+    {
+      constexpr unsigned int n_lines = 24;
+      const double           last    = std::log(100.);
+      Curve                  result;
+      for (unsigned int k = 0; k <= n_lines; ++k)
+        {
+          const double x = last * k / n_lines;
+          result.emplace_back(x, (std::exp(-x) - 0.01) / 0.99);
+        }
+      result.back().second = 0.;
+      double area          = 0;
+      for (std::size_t k = 1; k < result.size(); ++k)
+        area += 0.5 * (result[k].first - result[k - 1].first) * (result[k].second + result[k - 1].second);
+      for (auto &point : result)
+        point.first /= area;
+      return result;
+    }
+  } // namespace
+
+  /// The list of laws: a new one is one line here.
+  template <>
+  const Registry<SofteningTraits> &Softening::list()
+  {
+    static const auto laws = list_by_name<SofteningTraits>(
+      "Material/Softening",
+      {{"none", "bonds break at once"},
+       {"linear", "along one line", {{0., 1.}, {2., 0.}}},
+       {"bilinear",
+        "along two lines that meet at a third of it (Petersson), for concrete",
+        {{0., 1.}, {0.8, 1. / 3.}, {3.6, 0.}}},
+       {"exponential", "as exp(-opening), until a hundredth is left", exponential()}});
+    return laws;
+  }
+
+  SofteningLaw::SofteningLaw(const Softening &softening)
+    : curve(softening->curve)
+  {
+    for (std::size_t k = 1; k < curve.size(); ++k)
+      least =
+        std::max(least, 2. * (curve[k - 1].second - curve[k].second) / (curve[k].first - curve[k - 1].first));
+  }
+
+  SofteningLaw::Point
+  SofteningLaw::look_at(const double stretch, const double first, const double brittle_square) const
+  {
+    const double opening    = 0.5 * brittle_square / first;
+    const auto   stretch_at = [&](const std::pair<double, double> &point) {
+      return first * point.second + opening * point.first;
+    };
+    for (std::size_t k = 1; k < curve.size(); ++k)
+      if (const double end = stretch_at(curve[k]); stretch < end)
+        {
+          const double begin   = stretch_at(curve[k - 1]);
+          const double share   = std::max(0., (stretch - begin) / (end - begin));
+          const double change  = (curve[k].second - curve[k - 1].second) * first;
+          const double carried = (curve[k - 1].second * first + share * change) / stretch;
+          return {carried, (change / (end - begin) - carried) / stretch};
+        }
+    return {0., 0.};
+  }
+} // namespace perideal

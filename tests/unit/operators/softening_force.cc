@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/models.h>
+#include <perideal/operators/force/bond_force.h>
+
+#include "bodies.h"
+#include "springs.h"
+#include "testing.h"
+
+#include <cmath>
+
+using namespace perideal;
+
+namespace
+{
+  /// A body of unit modulus with its force.
+  template <int dim>
+  struct SofteningBody
+  {
+    SofteningBody(const Mesh<dim> &mesh, const std::pair<std::string, std::string> &model_and_form)
+      : body(mesh)
+    {
+      ModelParameters parameters;
+      parameters.model = model_and_form.first;
+      parameters.form  = model_and_form.second;
+      parameters.resolve(dim);
+      const ElasticConstants own = parameters.constants_of_model(
+        {1., 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain});
+      weights = weigh_bonds<dim>(body.families,
+                                 *create_model<dim>(parameters, 1.),
+                                 [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
+      bonds   = create_bond_force<dim>(*weights);
+      bonds->initialize(force);
+    }
+
+    /// A field without pattern, of a size.
+    NodalVector scattered(const double size, const unsigned int seed) const
+    {
+      NodalVector result(force);
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          result.local_element(dim * i + d) = size * test::scatter(body.nodes.position[i], 5 * seed + d);
+      return result;
+    }
+
+    test::Body<dim>                   body;
+    std::shared_ptr<BondWeights<dim>> weights;
+    std::unique_ptr<BondForce<dim>>   bonds;
+    NodalVector                       force;
+  };
+
+  /// Bonds that soften take what they lose from the energy; on trial they do not keep it.
+  template <int dim>
+  void expect_softening_as_judged(const Mesh<dim> &mesh, const std::pair<std::string, std::string> &variant)
+  {
+    SofteningBody<dim> whole(mesh, variant), softening(mesh, variant);
+    const double       own_spacing = whole.body.nodes.size() > 0 ? whole.body.nodes.spacing[0] : 0.;
+    const NodalVector  motion =
+      whole.scattered(0.05 * dealii::Utilities::MPI::max(own_spacing, MPI_COMM_WORLD), 4);
+    NodalVector rest(motion);
+    rest = 0.;
+    softening.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.06; },
+                                          SofteningLaw("bilinear"),
+                                          [](const LocalIndex, const LocalIndex) { return 0.02; });
+    whole.bonds->compute(whole.force, motion);
+
+    softening.bonds->judge_bonds(false);
+    NodalVector on_trial(motion);
+    softening.bonds->compute(on_trial, motion);
+    softening.bonds->compute(softening.force, rest);
+    EXPECT_LE(softening.bonds->strain_energy(), 1e-20);
+    softening.bonds->judge_bonds(true);
+    softening.bonds->compute(softening.force, motion);
+    on_trial -= softening.force;
+    EXPECT_EQ(on_trial.linfty_norm(), 0.);
+    NodalVector change(softening.force);
+    change -= whole.force;
+    EXPECT_GT(change.linfty_norm(), 0.01 * whole.force.linfty_norm());
+
+    const double      dt       = 0.1;
+    const NodalVector velocity = whole.scattered(1., 5);
+    const double      lost     = whole.bonds->strain_energy() - softening.bonds->strain_energy();
+    // The paper's form is no gradient of its energy.
+    if (variant.second != "paper")
+      {
+        EXPECT_GT(lost, 0.);
+      }
+    EXPECT_NEAR(softening.bonds->released_energy(velocity, dt),
+                lost - 0.5 * dt * (velocity * change),
+                1e-9 * std::abs(lost));
+
+    // The same state takes next to nothing more: limits are rounded.
+    softening.bonds->compute(softening.force, motion);
+    EXPECT_EQ(softening.bonds->n_broken_now(), 0u);
+    EXPECT_NEAR(softening.bonds->released_energy(velocity, dt), 0., 1e-5 * std::abs(lost));
+  }
+} // namespace
+
+TEST(SofteningForce, SoftensAsFarAsItIsJudged)
+{
+  for (const auto &variant : test::bond_models)
+    {
+      SCOPED_TRACE(variant.first + ", " + variant.second);
+      for (const auto &mesh : test::make_boxes<2>())
+        expect_softening_as_judged<2>(*mesh, variant);
+      for (const auto &mesh : test::make_boxes<3>())
+        expect_softening_as_judged<3>(*mesh, variant);
+    }
+}
