@@ -200,8 +200,7 @@ namespace perideal
         return BondArray{"-", 0, broken_bonds(), {}};
       },
       [this](const BondArray &array) { restore_broken(array.bonds); });
-    if (!softening.softens())
-      return;
+    // Whether bonds soften is not known yet.
     state.add_bond_array(
       "softened bonds",
       "-",
@@ -210,7 +209,8 @@ namespace perideal
         BondArray result{"-", 2, {}, {}};
         for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
           for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-            if (const double share = softening.share(slot, 1.); share > 0 && share < 1)
+            if (const double share = softening.share(slot, 1.);
+                bonds.neighbour[slot] != i && share > 0 && share < 1)
               {
                 result.bonds.push_back({i, bonds.neighbour[slot]});
                 result.values.insert(result.values.end(), {critical_stretch[slot], share});
@@ -220,7 +220,7 @@ namespace perideal
       [this](const BondArray &array) {
         for (std::size_t b = 0; b < array.bonds.size(); ++b)
           if (const BondIndex slot = bonds.find(array.bonds[b].near, array.bonds[b].far);
-              slot != BondList::no_slot && carries_force(slot))
+              softening.softens() && slot != BondList::no_slot && carries_force(slot))
             {
               critical_stretch[slot] = static_cast<float>(array.values[2 * b]);
               softening.restore(slot, array.values[2 * b + 1]);
