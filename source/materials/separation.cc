@@ -103,17 +103,27 @@ namespace perideal
               force += coefficients.force_weight[0][j] * reach[j];
           }
         double twice = of_sums(sums, force);
-        for (const LocalIndex j : order)
+        for (auto first = order.begin(); first != order.end();)
           {
-            if (place[j] >= n)
-              continue;
-            for (unsigned int a = 0; a < shape.n_sums; ++a)
-              sums[a] -= coefficients.sum[a][j] * reach[j];
-            if (shape.own_force_weights)
-              force -= coefficients.force_weight[0][j] * reach[j];
+            // Bonds that break at the same opening share what falls, whichever comes first.
+            auto         end   = first;
+            double       alone = 0;
+            unsigned int count = 0;
+            for (; end != order.end() && opening[*end] <= (1. + 1e-9) * opening[*first]; ++end)
+              if (const LocalIndex j = *end; place[j] < n)
+                {
+                  for (unsigned int a = 0; a < shape.n_sums; ++a)
+                    sums[a] -= coefficients.sum[a][j] * reach[j];
+                  if (shape.own_force_weights)
+                    force -= coefficients.force_weight[0][j] * reach[j];
+                  alone += of_bond(j, normal);
+                  ++count;
+                }
             const double after = of_sums(sums, force);
-            by_member[j] +=
-              0.5 * width * opening[j] * (of_bond(j, normal) + twice - after) / family.node_volume;
+            for (; first != end; ++first)
+              if (place[*first] < n)
+                by_member[*first] +=
+                  0.5 * width * opening[*first] * (alone + twice - after) / (count * family.node_volume);
             twice = after;
           }
       }
