@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
+
 namespace perideal
 {
   using Json = nlohmann::ordered_json;
@@ -49,14 +51,22 @@ namespace perideal
       return result;
     }
 
-    /// What the nodes get over what was applied: of the force, or of the moment where the force vanishes.
+    /// What the nodes get over what was applied: of the force, or of the moment where the force vanishes;
+    /// nothing where both do.
+    /// @param gross sum of the sizes of the forces [N]
+    /// @param size of the body [m]
     template <int dim>
-    double ratio_of(const Resultant<dim> &nodal, const Resultant<dim> &applied, const double gross)
+    std::optional<double> ratio_of(const Resultant<dim> &nodal,
+                                   const Resultant<dim> &applied,
+                                   const double          gross,
+                                   const double          size)
     {
       // Far above rounding, far below what any load is meant to have.
       if (applied.force.norm() > 1e-9 * gross)
         return nodal.force * applied.force / applied.force.norm_square();
-      return nodal.moment * applied.moment / applied.moment.norm_square();
+      if (applied.moment.norm() > 1e-9 * gross * size)
+        return nodal.moment * applied.moment / applied.moment.norm_square();
+      return {};
     }
   } // namespace
 
@@ -85,7 +95,8 @@ namespace perideal
           entry["transferred"] = describe(nodal);
           by_faces.force += nodal.force;
           by_faces.moment += nodal.moment;
-          entry["ratio"] = ratio_of(nodal, applied, gross);
+          if (const auto ratio = ratio_of(nodal, applied, gross, body.box[0].distance(body.box[1])))
+            entry["ratio"] = *ratio;
         }
     Resultant<dim> others;
     for (LocalIndex i = 0; i < nodes.size(); ++i)
