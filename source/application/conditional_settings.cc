@@ -70,6 +70,11 @@ namespace perideal
           "Material/Stretch formula"},
          "Solver/Name = quasi static | dynamic relaxation | dynamics",
          [](const Scene &s) { return !s.solver.is_linear_static(); }},
+        {{"Cracks/Energy release rates"},
+         "Dimension = 2, Solver/Name = quasi static | dynamic relaxation",
+         [](const Scene &s) {
+           return s.dimension == 2 && !s.solver.is_dynamic() && !s.solver.is_linear_static();
+         }},
         {{"Material/Assumption", "Mesh/Thickness"},
          "Dimension = 2",
          [](const Scene &s) { return s.dimension == 2; }},

@@ -97,6 +97,19 @@ namespace perideal
         },
         "branches are looked for in two dimensions",
         "0 in 3-D"),
+      refuse_each(
+        "Cracks/NAME/Domain radius",
+        "Dimension = 3, Solver/Name = dynamics, Cracks/Energy release rates = false",
+        [](const Scene &s) {
+          std::vector<std::string> result;
+          for (const CrackText &crack : s.cracks.cracks)
+            if (crack.domain_radius > 0 &&
+                (s.dimension == 3 || s.solver.is_dynamic() || !s.cracks.energy_release_rates))
+              result.push_back("Cracks/" + crack.name + "/Domain radius");
+          return result;
+        },
+        "energy release rates are integrated in equilibria of plane bodies, where they are asked for",
+        "0 for this scene"),
       of_motion("Precracks/NAME",
                 [](const Scene &s) { return in_statics(s, "Precracks", s.precracks.cracks); }),
       of_motion("Cracks/NAME", [](const Scene &s) { return in_statics(s, "Cracks", s.cracks.cracks); }),

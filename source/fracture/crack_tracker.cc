@@ -30,10 +30,18 @@ namespace perideal
   {
     using namespace dealii::Patterns;
     prm.enter_subsection("Cracks");
-    prm.add_parameter("Damage",
-                      damage,
-                      "Share of broken bonds from which on a node belongs to a crack, 0 < share < 1 [-]",
-                      Double());
+    prm.add_parameter(
+      "Damage",
+      damage,
+      "Share of its bonds that a node has lost to belong to a crack, those that softened by what they lost, "
+      "0 < share < 1 [-]",
+      Double());
+    prm.add_parameter(
+      "Energy release rates",
+      energy_release_rates,
+      "Whether G [J/m^2], and in isotropic solids K_I and K_II [Pa m^0.5], are computed at the "
+      "tips of cracks by domain integrals: of plane bodies, at every load step of quasi static "
+      "and dynamic relaxation; motion and three dimensions have none");
     cracks = named_texts<CrackText>(file, "Cracks");
     for (CrackText &crack : cracks)
       {
@@ -71,6 +79,14 @@ namespace perideal
                           "Length [m] along the direction over which the angle between the crack's branches "
                           "is measured; 0: no branches are looked for",
                           Double(0));
+        prm.add_parameter(
+          "Domain radius",
+          crack.domain_radius,
+          "Outer radius [m] of the ring of cells around the tip, the inner one is a third of it, "
+          "over which the energy release rate is integrated: two horizons or more, and no more "
+          "than to the surface of the body, other materials, point loads and other cracks; 0: as "
+          "large as there is room, up to eight horizons",
+          Double(0));
         prm.leave_subsection();
       }
     prm.leave_subsection();

@@ -282,6 +282,7 @@ namespace perideal
     warn_of_whole_cells(problem, result);
     warn_of_cells(problem, result);
     warn_of_few_cells(problem, result);
+    warn_of_crack_origins(problem, result);
     return result;
   }
 

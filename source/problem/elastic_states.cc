@@ -36,21 +36,8 @@ namespace perideal
     template <int dim>
     std::vector<dealii::SymmetricTensor<2, dim>> strains_of_families(const Problem<dim> &problem)
     {
-      const Families<dim> &families = *problem.discretisation.families;
-      NodalVector          displacement(families.make_partitioner(dim));
-      if (problem.system)
-        {
-          // Mirrored nodes have displacements too.
-          NodalVector all;
-          problem.system->initialize_all(all);
-          problem.system->mirror_layer().extend(problem.state.unknowns, true, all);
-          displacement.copy_locally_owned_data_from(all);
-        }
-      else
-        for (LocalIndex i = 0; i < problem.state.displacement.size(); ++i)
-          for (int d = 0; d < dim; ++d)
-            displacement.local_element(dim * i + d) = problem.state.displacement[i][d];
-      displacement.update_ghost_values();
+      const Families<dim> &families     = *problem.discretisation.families;
+      const NodalVector    displacement = displacement_of_families(problem);
 
       FamilyFit<dim> fit(families, displacement);
       if (problem.force)
@@ -90,6 +77,26 @@ namespace perideal
   }
 
   template <int dim>
+  NodalVector displacement_of_families(const Problem<dim> &problem)
+  {
+    NodalVector displacement(problem.discretisation.families->make_partitioner(dim));
+    if (problem.system)
+      {
+        // Mirrored nodes have displacements too.
+        NodalVector all;
+        problem.system->initialize_all(all);
+        problem.system->mirror_layer().extend(problem.state.unknowns, true, all);
+        displacement.copy_locally_owned_data_from(all);
+      }
+    else
+      for (LocalIndex i = 0; i < problem.state.displacement.size(); ++i)
+        for (int d = 0; d < dim; ++d)
+          displacement.local_element(dim * i + d) = problem.state.displacement[i][d];
+    displacement.update_ghost_values();
+    return displacement;
+  }
+
+  template <int dim>
   std::vector<ElasticState> elastic_states(const Problem<dim> &problem)
   {
     std::vector<ElasticState> result;
@@ -115,5 +122,6 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE(has_elastic_states)
+  PERIDEAL_INSTANTIATE(displacement_of_families)
   PERIDEAL_INSTANTIATE(elastic_states)
 } // namespace perideal

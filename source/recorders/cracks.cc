@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/output/summary.h>
+#include <perideal/recorders/crack_figures.h>
 #include <perideal/recorders/make_recorders.h>
 
 namespace perideal
@@ -10,7 +11,45 @@ namespace perideal
 
   namespace
   {
-    /// Follows the cracks that the scene names: their tips by step, and their paths at the end.
+    /// Share of the family behind bonds that precracks cut or that broke, and what others have lost as they
+    /// softened, by owned node.
+    template <int dim>
+    std::vector<double> share_lost(const Problem<dim> &problem)
+    {
+      const Families<dim>  &families = *problem.discretisation.families;
+      const BondForce<dim> &force    = *problem.force;
+      const BondList       &bonds    = force.bond_list();
+      std::vector<double>   result   = total_damage(force);
+      if (!force.softening_bonds().softens())
+        return result;
+      std::vector<bool> is_gone(bonds.n_slots(), false);
+      for (const auto &bond : force.lost_bonds())
+        is_gone[bond.slot] = true;
+      std::vector<double> family(families.n_owned(), 0.), softened(families.n_owned(), 0.);
+      const auto          count = [&](const LocalIndex i, const LocalIndex j, const double lost) {
+        if (i < families.n_owned())
+          {
+            family[i] += families.volume[j];
+            softened[i] += lost * families.volume[j];
+          }
+      };
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          if (const LocalIndex j = bonds.neighbour[slot]; j != i)
+            {
+              // Any stretch tells what is left of a bond; pressed together it is whole.
+              const double lost = is_gone[slot] ? 0. : 1. - force.softening_bonds().share(slot, 1.);
+              count(i, j, lost);
+              count(j, i, lost);
+            }
+      for (LocalIndex i = 0; i < result.size(); ++i)
+        if (family[i] > 0)
+          result[i] += softened[i] / family[i];
+      return result;
+    }
+
+    /// Follows the cracks that the scene names: their tips and what drives them by step, and their paths at
+    /// the end.
     template <int dim>
     class CracksRecorder : public Recorder<dim>
     {
@@ -19,6 +58,7 @@ namespace perideal
         : problem(problem)
         , kind(kind)
         , tracker(problem.parameters.cracks, *problem.body.nodes)
+        , figures(problem, tracker, kind)
       {
       }
 
@@ -27,12 +67,13 @@ namespace perideal
       void observe(const Step<dim> &step, const Record &) override
       {
         if (step.newly_broken > 0 || kind.has_iterations)
-          tracker.update(step.time, total_damage(*problem.force));
+          tracker.update(step.time, share_lost(problem));
       }
 
       void record(const Step<dim> &step, const Record &record) override
       {
-        if (step.n_broken != n_collected)
+        // Bonds may soften without a break.
+        if (step.n_broken != n_collected || kind.has_iterations)
           tracker.collect();
         n_collected        = step.n_broken;
         const char *axes[] = {"x", "y", "z"};
@@ -43,11 +84,13 @@ namespace perideal
             record.history.add("reach of " + tip.name + " [m]", tip.reach);
             record.history.add("speed of " + tip.name + " [m/s]", tip.speed);
           }
+        figures.record(step, record.history);
       }
 
       void finish(Json &summary) override
       {
         summary["cracks"] = tracker.describe();
+        figures.describe(summary["cracks"]);
         for (auto &crack : summary["cracks"])
           if (n_collected > 0 && crack["first_time"].is_null())
             crack["note"] = "no bond broke where this crack is looked for, " + std::to_string(n_collected) +
@@ -58,20 +101,23 @@ namespace perideal
       std::string describe(const Json &summary, const bool) const override
       {
         std::string text;
-        if (!kind.has_motion || !summary.contains("cracks"))
+        if (!summary.contains("cracks"))
           return text;
         for (const auto &crack : summary["cracks"].items())
           {
-            const Json &figures = crack.value();
-            if (figures.contains("note"))
-              {
-                text += "crack       " + crack.key() + ": " + figures["note"].get<std::string>() + '\n';
-                continue;
-              }
-            text += "crack       " + crack.key() + ": from " + number(figures["first_time"]) +
-                    " s on, reach " + number(figures["reach"]) + " m, angle " + number(figures["angle"]) +
-                    " degrees, speed " + number(figures["speed"]) + " m/s" + describe_branching(figures) +
-                    '\n';
+            const Json       &of_crack = crack.value();
+            const std::string begin    = "crack       " + crack.key() + ": ";
+            if (const std::string length = CrackFigures<dim>::in_words(of_crack); !length.empty())
+              text += begin + length + '\n';
+            if (!kind.has_motion)
+              continue;
+            if (of_crack.contains("note"))
+              text += begin + of_crack["note"].get<std::string>() + '\n';
+            else
+              text += begin + "from " + number(of_crack["first_time"]) + " s on, reach " +
+                      number(of_crack["reach"]) + " m, angle " + number(of_crack["angle"]) +
+                      " degrees, speed " + number(of_crack["speed"]) + " m/s" + describe_branching(of_crack) +
+                      '\n';
           }
         return text;
       }
@@ -99,6 +145,7 @@ namespace perideal
       const Problem<dim> &problem;
       const RunKind       kind;
       CrackTracker<dim>   tracker;
+      CrackFigures<dim>   figures;
       /// Broken bonds when the cracks were last looked at.
       GlobalIndex n_collected = 0;
     };

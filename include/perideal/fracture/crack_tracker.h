@@ -31,13 +31,17 @@ namespace perideal
     std::vector<double> arrivals;
     /// Length over which the angle of its branches is measured [m]; 0: no branches are looked for.
     double branch_length = 0;
+    /// Outer radius of the ring of cells of its domain integrals [m]; 0: automatic.
+    double domain_radius = 0;
   };
 
   /// Section "Cracks".
   struct CrackParameters
   {
     /// Damage from which on a node belongs to a crack [-].
-    double                 damage = 0.35;
+    double damage = 0.35;
+    /// Whether energy release rates are computed in equilibria.
+    bool                   energy_release_rates = true;
     std::vector<CrackText> cracks;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
@@ -81,6 +85,12 @@ namespace perideal
     };
     /// The tips of all cracks, as of the last collect().
     std::vector<Tip> tips(const double time) const;
+
+    /// The nodes of a crack, by the number of its subsection, as of the last collect(): on rank 0.
+    const std::vector<DamagedNode<dim>> &nodes_of(const std::size_t crack) const
+    {
+      return cracks[crack].path.nodes();
+    }
 
     /**
      * By crack: first_time [s]; angle [degrees] between its direction so far and the line of least squares

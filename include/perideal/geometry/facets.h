@@ -51,6 +51,8 @@ namespace perideal
   public:
     explicit Facets(const std::vector<Facet<dim>> &facets);
 
+    const std::vector<Facet<dim>> &all() const { return facets; }
+
     /// Whether the segment between two points passes through one of them.
     bool are_crossed(const dealii::Point<dim> &a, const dealii::Point<dim> &b) const;
 

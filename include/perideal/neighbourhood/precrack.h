@@ -51,6 +51,9 @@ namespace perideal
       return facets.are_crossed(a, b);
     }
 
+    /// What it consists of: segments in 2-D, polygons in 3-D.
+    const std::vector<Facet<dim>> &parts() const { return facets.all(); }
+
   private:
     Facets<dim> facets;
   };

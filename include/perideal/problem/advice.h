@@ -28,6 +28,11 @@ namespace perideal
   template <int dim>
   void warn_of_few_cells(const Problem<dim> &problem, std::vector<std::string> &result);
 
+  /// Adds cracks to follow whose origin is no tip of a precrack, where there are any, with the nearest one.
+  /// Collective.
+  template <int dim>
+  void warn_of_crack_origins(const Problem<dim> &problem, std::vector<std::string> &result);
+
   /// What is likely to spoil the result or to stop the solver, one line each. Collective.
   template <int dim>
   std::vector<std::string> warnings(const Problem<dim> &problem);

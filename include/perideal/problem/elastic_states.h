@@ -13,6 +13,11 @@ namespace perideal
   template <int dim>
   bool has_elastic_states(const Problem<dim> &problem);
 
+  /// Returns the displacement of the nodes of the families, ghosts and mirrored nodes among them [m].
+  /// Collective.
+  template <int dim>
+  NodalVector displacement_of_families(const Problem<dim> &problem);
+
   /// Returns strain and stress of the owned nodes: of the consistent form the means over cells, of
   /// nonlinear statics by a law those of its gradients, of all others from
   /// linear fits to their families (FamilyFit), because their displacement jitters from cell to cell.
