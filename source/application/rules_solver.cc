@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/rules.h>
 
+#include <algorithm>
+
 // Rules of solvers: what is moved, kept or damped.
 
 namespace perideal
@@ -39,6 +41,66 @@ namespace perideal
              scene.loads.has_taylor_extension();
     }
 
+    bool controls_gauge(const Scene &scene)
+    {
+      return scene.solver.controls(LoadControlName::gauge);
+    }
+
+    /// Whether Solver/Control gauge names one gauge, or there is no more than one.
+    bool knows_gauge(const Scene &scene)
+    {
+      const auto &gauges = scene.gauges.gauges;
+      if (scene.solver.control_gauge.empty())
+        return gauges.size() == 1;
+      return std::any_of(gauges.begin(), gauges.end(), [&](const GaugeText &gauge) {
+        return gauge.name == scene.solver.control_gauge;
+      });
+    }
+
+    bool has_fracture_energy(const MaterialParameters &material)
+    {
+      return material.body.fracture_energy > 0 ||
+             std::any_of(material.groups.begin(), material.groups.end(), [](const auto &group) {
+               return group.second.fracture_energy > 0;
+             });
+    }
+
+    std::vector<Rule> rules_of_control()
+    {
+      return {
+        refuse(
+          "Solver/Control gauge",
+          "Solver/Control = gauge",
+          [](const Scene &s) { return controls_gauge(s) && !knows_gauge(s); },
+          "no gauge has this name, or it could be one of several",
+          "the name of a subsection of Gauges; empty where there is one"),
+        refuse(
+          "Solver/Control end",
+          "Solver/Control = gauge, Solver/Control end = 0",
+          [](const Scene &s) { return controls_gauge(s) && !(s.solver.control_end > 0); },
+          "the gauge needs an elongation at which the run ends",
+          "an elongation > 0 [m]"),
+        refuse(
+          "Solver/Control",
+          "Solver/Control = dissipated energy, Material/Softening = none",
+          [](const Scene &s) {
+            return s.solver.controls(LoadControlName::dissipated_energy) && !s.material.softens();
+          },
+          "bonds that break at once dissipate by leaps, which cannot be prescribed",
+          "loads | gauge without Material/Softening",
+          "set Material/Softening = linear"),
+        refuse(
+          "Solver/Control step",
+          "Solver/Control = dissipated energy, Material/Critical stretch",
+          [](const Scene &s) {
+            return s.solver.controls(LoadControlName::dissipated_energy) && s.solver.control_step == 0 &&
+                   !has_fracture_energy(s.material);
+          },
+          "without a fracture energy the step has no value by itself",
+          "an energy > 0 [J]"),
+      };
+    }
+
     Rule of_dynamics(const std::string &parameter, const Rule::Breaches &breaches)
     {
       return refuse_each(parameter,
@@ -74,7 +136,7 @@ namespace perideal
 
   std::vector<Rule> solver_rules()
   {
-    return {
+    std::vector<Rule> rules = {
       refuse(
         "Solver/Linear solver",
         "Solver/Linear solver = cg | trilinos cg, with Material/Form = paper, Quadrature/Scheme = gauss "
@@ -120,5 +182,8 @@ namespace perideal
       of_steps("Solver/Relative damping",
                [](const Scene &s) { return s.solver.relative_damping > 0 && s.solver.is_linear_static(); }),
     };
+    const std::vector<Rule> of_control = rules_of_control();
+    rules.insert(rules.end(), of_control.begin(), of_control.end());
+    return rules;
   }
 } // namespace perideal

@@ -3,6 +3,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/load_control.h>
 #include <perideal/drivers/preconditioning.h>
 #include <perideal/fracture/floating_nodes.h>
 #include <perideal/output/progress.h>
@@ -103,7 +104,9 @@ namespace perideal
 
       std::string describe() const override
       {
-        const std::string steps = " in " + std::to_string(solver.load_steps) + " load step(s)";
+        const std::string steps = solver.is_controlled() ?
+                                    ", control by " + name_of(solver.control) :
+                                    " in " + std::to_string(solver.load_steps) + " load step(s)";
         if (!solver.is_quasi_static())
           return "solver      dynamic relaxation" + steps + '\n';
         return "solver      quasi static, Newton's method" + steps +
@@ -142,28 +145,43 @@ namespace perideal
         typename NewtonSolver<dim>::FindFloating find_floating;
         if (controls.bonds_break || !problem.failure.precracks.empty())
           find_floating = [this]() { return floating_nodes(); };
-        path = std::make_unique<NewtonSolver<dim>>(
-          *problem.force,
-          *tangent,
-          *tangent_system,
-          *tangent_solver,
-          loading.supports->held(),
-          loading.loads,
-          problem.free_motions,
-          controls,
-          loading.supports->hold_nodes() ? nullptr : loading.supports->face_values().get(),
-          find_floating);
+        FaceValues<dim> *const face_values =
+          loading.supports->hold_nodes() ? nullptr : loading.supports->face_values().get();
+        const auto make = [&](auto create) {
+          return create(*problem.force,
+                        *tangent,
+                        *tangent_system,
+                        *tangent_solver,
+                        loading.supports->held(),
+                        loading.loads,
+                        problem.free_motions,
+                        controls,
+                        face_values,
+                        find_floating);
+        };
+        if (!solver.is_controlled())
+          {
+            path =
+              make([](auto &&...arguments) { return std::make_unique<NewtonSolver<dim>>(arguments...); });
+            return;
+          }
+        auto made  = make([this](auto &&...arguments) {
+          return std::make_unique<ControlledNewton<dim>>(LoadControl<dim>::control_of(problem), arguments...);
+        });
+        controlled = made.get();
+        path       = std::move(made);
+        control    = std::make_unique<LoadControl<dim>>(problem, *controlled);
       }
 
       std::vector<bool> floating_nodes() const
       {
-        const BondForce<dim> &force = *problem.force;
-        std::vector<bool>     is_lost(force.bond_list().n_slots(), false);
-        for (const auto &bond : force.lost_bonds())
+        const BondList   &bonds = problem.force->bond_list();
+        std::vector<bool> is_lost(bonds.n_slots(), false);
+        for (const auto &bond : problem.force->lost_bonds())
           is_lost[bond.slot] = true;
         return find_floating_nodes(
           *problem.discretisation.families,
-          force.bond_list(),
+          bonds,
           [&](const BondIndex slot) { return is_lost[slot]; },
           problem.loading.supports->held().mask());
       }
@@ -173,31 +191,34 @@ namespace perideal
         recorders->summary()["solver"] = solver_report;
         make_path();
         path->register_state(problem.lasting);
+        if (control)
+          control->register_state(problem.lasting);
         if (resumed)
           resume();
         const unsigned int interval = problem.parameters.checkpoints.steps;
         const StopRequest  stop;
-        while (done < solver.load_steps)
+        while (!is_done())
           {
             take_load_step(done + 1);
             ++done;
             const bool stops = stop.is_there(problem.run.communicator);
-            if (done < solver.load_steps && (stops || (interval > 0 && done % interval == 0)))
-              this->save_checkpoint(done, static_cast<double>(done) / solver.load_steps);
+            if (!is_done() && (stops || (interval > 0 && done % interval == 0)))
+              this->save_checkpoint(
+                done, control ? controlled->time() : static_cast<double>(done) / solver.load_steps);
             if (stops)
               break;
           }
-        return done == solver.load_steps;
+        return is_done();
       }
+
+      bool is_done() const { return control ? control->is_done() : done == solver.load_steps; }
 
       void take_load_step(const unsigned int number)
       {
         Step<dim> step;
         step.number                             = number;
-        step.time                               = static_cast<double>(number) / solver.load_steps;
-        step.is_last                            = number == solver.load_steps;
         recorders->summary()["solver"]["steps"] = number;
-        const double reached                    = search(step);
+        const double reached                    = control ? follow(step) : search(step);
         problem.state.unknowns                  = path->displacement;
         problem.store_displacement();
         measure(step);
@@ -210,12 +231,13 @@ namespace perideal
         recorders->write_fields(step);
       }
 
-      /// Goes to the end of a load step, whole at first; after a failure in halves, each of which may be
-      /// halved again. Returns the time reached or sought last.
+      /// Goes to the end of a load step, after a failure in halves. Returns the time reached or sought last.
       double search(Step<dim> &step)
       {
-        const double end  = step.time;
+        const double end  = static_cast<double>(step.number) / solver.load_steps;
         double       time = static_cast<double>(step.number - 1) / solver.load_steps, part = end - time;
+        step.time    = end;
+        step.is_last = step.number == solver.load_steps;
         while (time < end)
           {
             const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;
@@ -236,6 +258,27 @@ namespace perideal
               }
           }
         return std::min(end, time + part);
+      }
+
+      /// Goes on by what is controlled. Returns the time reached.
+      double follow(Step<dim> &step)
+      {
+        const Timings::Scope scope(problem.run.timings, "solve");
+        auto                &screen = problem.run.screen;
+        std::string          what;
+        step.search = control->next(
+          step.halvings,
+          [&](const std::string &attempt) {
+            what = "load step " + std::to_string(step.number) +
+                   " from t = " + short_number(controlled->time()) + ", " + attempt + ", " +
+                   std::to_string(path->n_broken()) + " broken bonds";
+          },
+          [&](const unsigned int iteration, const double r) {
+            screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+          });
+        step.time    = controlled->time();
+        step.is_last = control->is_done();
+        return step.time;
       }
 
       EquilibriumStep find_equilibrium(const std::uint64_t number, const double time)
@@ -288,7 +331,10 @@ namespace perideal
       std::unique_ptr<Preconditioning<dim>>     preconditioning;
       std::unique_ptr<TangentSolver<dim>>       tangent_solver;
       std::unique_ptr<EquilibriumPath<dim>>     path;
-      nlohmann::ordered_json                    solver_report;
+      /// Where the loads are an unknown: the path, and its steps.
+      ControlledNewton<dim>            *controlled = nullptr;
+      std::unique_ptr<LoadControl<dim>> control;
+      nlohmann::ordered_json            solver_report;
       /// Load steps.
       unsigned int done = 0;
     };

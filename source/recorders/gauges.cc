@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
-#include <perideal/boundary/gauges.h>
+#include <perideal/problem/make_gauges.h>
 #include <perideal/recorders/make_recorders.h>
 
 namespace perideal
@@ -41,15 +41,6 @@ namespace perideal
       void register_state(LastingState &state, Json &summary) override { state.add_part("gauges", summary); }
 
     private:
-      static Gauges<dim> make_gauges(const Problem<dim> &problem)
-      {
-        const Mesh<dim> &mesh = *problem.body.mesh;
-        const auto       list = read_gauges<dim>(problem.parameters.gauges);
-        if (const auto &polynomials = problem.discretisation.gradients.polynomials)
-          return {mesh, *polynomials, list};
-        return {mesh, CellGraph<dim>(mesh, *problem.body.nodes), list};
-      }
-
       const Problem<dim> &problem;
       const RunKind       kind;
       const Gauges<dim>   gauges;

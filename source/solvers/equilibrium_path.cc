@@ -17,6 +17,17 @@ namespace perideal
     constexpr double judge_tolerance = 1e-4;
     /// How often the iterations of a load step are counted anew as bonds soften.
     constexpr unsigned int most_patience = 20;
+
+    /// Force of a support [N], zero in free components.
+    template <int dim>
+    double support_force(const DirichletNodes<dim> &held,
+                         const std::size_t          component,
+                         const NodalVector         &external,
+                         const NodalVector         &internal)
+    {
+      return held.mask()[component] ? -internal.local_element(component) - external.local_element(component) :
+                                      0.;
+    }
   } // namespace
 
   template <int dim>
@@ -80,8 +91,13 @@ namespace perideal
                             residual <= judge_tolerance * reference;
         if (controls.bonds_break && (at_rest || nearly))
           {
-            const GlobalIndex now =
-              bonds.softening_bonds().softens() ? keep_softened() : break_bonds(external);
+            if (breaks.most_dissipated < std::numeric_limits<double>::infinity() &&
+                dissipated_since(external) > breaks.most_dissipated)
+              {
+                result.problem = "the step dissipates more than it may";
+                return result;
+              }
+            const GlobalIndex now = judge(external);
             result.broken += now;
             judged = now == 0;
             if (now > 0)
@@ -93,8 +109,7 @@ namespace perideal
           }
         if (at_rest)
           {
-            last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
-            balance(external, force, bonds.strain_energy());
+            settle(external, norms);
             result.converged = true;
             return result;
           }
@@ -170,26 +185,7 @@ namespace perideal
   }
 
   template <int dim>
-  GlobalIndex EquilibriumPath<dim>::break_bonds(const NodalVector &external)
-  {
-    bonds.judge_bonds(true);
-    compute_forces();
-    bonds.judge_bonds(false);
-    const GlobalIndex now = bonds.n_broken_now();
-    if (now == 0)
-      return 0;
-    forget_motion();
-    // At rest, the energy that goes at once is that of the weights lost.
-    NodalVector no_velocity(force);
-    no_velocity = 0.;
-    balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
-    breaks.total += now;
-    breaks.in_step = breaks.in_segment = true;
-    return now;
-  }
-
-  template <int dim>
-  GlobalIndex EquilibriumPath<dim>::keep_softened()
+  GlobalIndex EquilibriumPath<dim>::judge(const NodalVector &external)
   {
     bonds.judge_bonds(true);
     compute_forces();
@@ -198,9 +194,42 @@ namespace perideal
     breaks.total += now;
     if (bonds.softening_bonds().any_now(displacement.get_mpi_communicator()))
       breaks.in_step = breaks.in_segment = breaks.in_iteration = true;
-    if (now > 0)
-      forget_motion();
+    if (now == 0)
+      return 0;
+    forget_motion();
+    if (bonds.softening_bonds().softens())
+      return now;
+    // At rest, the energy that goes at once is that of the weights lost.
+    NodalVector no_velocity(force);
+    no_velocity = 0.;
+    balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
+    breaks.in_step = breaks.in_segment = true;
     return now;
+  }
+
+  template <int dim>
+  void EquilibriumPath<dim>::settle(const NodalVector &external, const Norms &norms)
+  {
+    last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
+    balance(external, force, bonds.strain_energy());
+  }
+
+  template <int dim>
+  double EquilibriumPath<dim>::work_since(const NodalVector &external, const NodalVector &internal) const
+  {
+    double work = 0;
+    for (std::size_t k = 0; k < held.mask().size(); ++k)
+      {
+        const double p = external.local_element(k), support = support_force(held, k, external, internal);
+        const double moved = displacement.local_element(k) - last.displacement.local_element(k);
+        work +=
+          0.5 * (p + support + last.external.local_element(k) + last.support_force.local_element(k)) * moved;
+      }
+    const auto at_faces = bonds.support_forces();
+    for (std::size_t e = 0; e < at_faces.size(); ++e)
+      work += 0.5 * ((at_faces[e] + last.face_support_force[e]) *
+                     (face_values->entries()[e].value - last.face_value[e]));
+    return dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
   }
 
   template <int dim>
@@ -208,20 +237,9 @@ namespace perideal
                                      const NodalVector &internal,
                                      const double       strain_energy)
   {
-    double work = 0;
-    for (std::size_t k = 0; k < held.mask().size(); ++k)
-      {
-        const double p = external.local_element(k), support = support_at(k, external, internal);
-        const double moved = displacement.local_element(k) - last.displacement.local_element(k);
-        work +=
-          0.5 * (p + support + last.external.local_element(k) + last.support_force.local_element(k)) * moved;
-        increment.local_element(k) += moved;
-      }
-    const auto at_faces = bonds.support_forces();
-    for (std::size_t e = 0; e < at_faces.size(); ++e)
-      work += 0.5 * ((at_faces[e] + last.face_support_force[e]) *
-                     (face_values->entries()[e].value - last.face_value[e]));
-    work = dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
+    const double work = work_since(external, internal);
+    increment += displacement;
+    increment -= last.displacement;
     last.energy.external += work;
     if (breaks.in_segment)
       last.energy.dissipated += work - (strain_energy - last.energy.strain);
@@ -234,7 +252,7 @@ namespace perideal
   void EquilibriumPath<dim>::keep(const NodalVector &external, const NodalVector &internal)
   {
     for (std::size_t k = 0; k < held.mask().size(); ++k)
-      last.support_force.local_element(k) = support_at(k, external, internal);
+      last.support_force.local_element(k) = support_force(held, k, external, internal);
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
       {

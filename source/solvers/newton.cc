@@ -41,9 +41,9 @@ namespace perideal
     , system(system)
     , linear(linear)
     , null_space(null_space)
-    , anchors{find_floating, {}, 0}
+    , anchors{find_floating, {}, {}, 0}
   {
-    for (NodalVector *vector : {&held_increment, &searching.start, &rest_stiffness, &anchors.place})
+    for (NodalVector *vector : {&held_increment, &searching.start, &anchors.rest_stiffness, &anchors.place})
       bonds.initialize(*vector);
     system.initialize(residual);
     system.initialize(correction);
@@ -51,7 +51,7 @@ namespace perideal
     const auto blocks = tangent.diagonal_blocks();
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
-        rest_stiffness.local_element(dim * i + d) = 0.5 * blocks[i][d][d];
+        anchors.rest_stiffness.local_element(dim * i + d) = 0.5 * blocks[i][d][d];
     // Precracks may have cut pieces off.
     anchor();
   }
@@ -72,7 +72,7 @@ namespace perideal
       for (LocalIndex k = dim * i; k < dim * (i + 1); ++k)
         if (floats[i] && springs[k] == 0.)
           {
-            springs[k]                     = anchor_share * rest_stiffness.local_element(k);
+            springs[k]                     = anchor_share * anchors.rest_stiffness.local_element(k);
             anchors.place.local_element(k) = displacement.local_element(k);
           }
     system.set_anchors(springs);
@@ -111,11 +111,18 @@ namespace perideal
         largest += dealii::Utilities::MPI::max(this->face_values->largest_increment(),
                                                displacement.get_mpi_communicator());
       }
+    start_in_place();
     in_place = largest == 0.;
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::start_in_place()
+  {
+    in_place = true;
     linear.start_step();
     searching.n_without_tangent = searching.n_in_vain = 0;
     searching.least_residual                          = std::numeric_limits<double>::max();
-    this->set_rounding(rest_stiffness);
+    this->set_rounding(anchors.rest_stiffness);
   }
 
   template <int dim>
@@ -130,6 +137,16 @@ namespace perideal
         residual.local_element(k) -=
           springs[k] * (displacement.local_element(k) - anchors.place.local_element(k));
     null_space.project(residual);
+  }
+
+  template <int dim>
+  void NewtonSolver<dim>::force_of_supports(NodalVector &result)
+  {
+    tangent.vmult(result, held_increment);
+    tangent.add_increments(result);
+    const auto &is_held = held.mask();
+    for (std::size_t k = 0; k < is_held.size(); ++k)
+      result.local_element(k) = is_held[k] ? 0. : -result.local_element(k);
   }
 
   template <int dim>
@@ -148,11 +165,8 @@ namespace perideal
       {
         // The supports pull before they move.
         tangent.linearise(this->bonds, true);
-        tangent.vmult(correction, held_increment);
-        tangent.add_increments(correction);
-        for (std::size_t k = 0; k < is_held.size(); ++k)
-          if (!is_held[k])
-            residual.local_element(k) -= correction.local_element(k);
+        force_of_supports(correction);
+        residual += correction;
         null_space.project(residual);
       }
     const MPI_Comm communicator = displacement.get_mpi_communicator();
@@ -221,11 +235,16 @@ namespace perideal
         if (solve(result) && search(external))
           return true;
       }
+    if (!may_jump)
+      {
+        result.problem = "the path turns back";
+        return false;
+      }
     searching.n_without_tangent =
       (searching.n_without_tangent > 0 ? searching.n_without_tangent : without_tangent_in_a_row) - 1;
     searching.n_in_vain = 0;
     // There is no equilibrium nearby. What has softened until here stays so.
-    this->keep_softened();
+    this->judge(external);
     tangent.linearise(this->bonds, true);
     if (!solve(result))
       return false;

@@ -35,7 +35,7 @@ namespace perideal
       "Newton iterations",
       newton_iterations,
       "Iterations after which an equilibrium of quasi static has failed, > 0; they are counted "
-      "anew after every break",
+      "anew after every break, under Control other than loads also where a tenth of the residual is left",
       Integer(1));
     prm.add_parameter(
       "Step halvings",
@@ -65,6 +65,27 @@ namespace perideal
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
                       Integer(1));
+    prm.add_parameter(
+      "Control",
+      control,
+      "What grows by prescribed amounts in quasi static. loads: their formulas of t; gauge: the elongation "
+      "of "
+      "Control gauge, by Control end over Load steps; dissipated energy: what softening bonds take, by "
+      "Control step, wherever a crack would run away under loads. In the last two t is an unknown, the load "
+      "factor, and falls where equilibrium asks for it (snap-back)");
+    prm.add_parameter(
+      "Control gauge", control_gauge, "Name of the gauge that is controlled; empty: the only one there is");
+    prm.add_parameter(
+      "Control end",
+      control_end,
+      "Elongation of the gauge [m], > 0, or dissipated energy [J], at which the run ends; 0: "
+      "dissipated energy goes on until t = 1, or until a thousandth of the strain energy is left",
+      Double(0));
+    prm.add_parameter("Control step",
+                      control_step,
+                      "Largest dissipated energy of a load step [J]; 0: the fracture energy of one cell "
+                      "of the crack in 2-D, of a row of them in 3-D",
+                      Double(0));
     prm.add_parameter("End time", end_time, "When dynamics end, > 0 [s]", Double());
     prm.add_parameter("Time step",
                       time_step,

@@ -10,6 +10,7 @@
 #include <perideal/solvers/explicit_dynamics.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -134,9 +135,8 @@ namespace perideal
 
     void compute_forces();
 
-    /// Lets what softened at the present displacement be so for good; returns how many bonds broke.
-    /// Collective.
-    GlobalIndex keep_softened();
+    /// Lets bonds soften or break for good at the present displacement; returns how many broke. Collective.
+    GlobalIndex judge(const NodalVector &external);
 
     /// Positions y are rounded by eps |y|: forgives what that makes of forces in a body whose nodes
     /// have these stiffnesses by component [N/m].
@@ -144,6 +144,16 @@ namespace perideal
 
     /// Sum of the squared forces at prescribed face values [N^2]. Collective.
     double face_reaction_square() const;
+
+    /// Keeps the present state as an equilibrium: its energies, forces and largest load. Collective.
+    void settle(const NodalVector &external, const Norms &norms);
+
+    /// What has gone since the last equilibrium of the work done on the body, by the trapezoidal rule, and is
+    /// not in its bonds [J]. Collective.
+    double dissipated_since(const NodalVector &external) const
+    {
+      return work_since(external, force) - (bonds.strain_energy() - last.energy.strain);
+    }
 
     BondForce<dim>            &bonds;
     const DirichletNodes<dim> &held;
@@ -171,6 +181,8 @@ namespace perideal
       bool        in_step = false, in_segment = false;
       /// Bonds softened for good in the last iteration.
       bool in_iteration = false;
+      /// What softening may dissipate in a step, which fails if it is more [J].
+      double most_dissipated = std::numeric_limits<double>::infinity();
     };
     Breaks breaks;
 
@@ -186,17 +198,10 @@ namespace perideal
     Equilibrium last;
 
   private:
-    /// Judges the bonds; returns how many broke. Collective.
-    GlobalIndex break_bonds(const NodalVector &external);
-    /// Force of a support [N], zero in free components.
-    double
-    support_at(const std::size_t component, const NodalVector &external, const NodalVector &internal) const
-    {
-      return held.mask()[component] ? -internal.local_element(component) - external.local_element(component) :
-                                      0.;
-    }
     /// Keeps displacement, loads, supports and values at faces as those of the last equilibrium.
     void keep(const NodalVector &external, const NodalVector &internal);
+    /// Work of loads and supports since the last equilibrium, by the trapezoidal rule [J]. Collective.
+    double work_since(const NodalVector &external, const NodalVector &internal) const;
     /// Work and energies between the last equilibrium and this one.
     void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
   };

@@ -70,24 +70,20 @@ namespace perideal
 
     void register_state(LastingState &state) override;
 
-  private:
-    void                                 start_step(const double time) override;
+  protected:
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
-    bool                                 is_in_place() const override { return in_place; }
-    bool iterate(const NodalVector &external, EquilibriumStep &result) override;
-    void forget_motion() override { anchor(); }
-    /// Holds the nodes that are disconnected from the supports. Collective.
-    void anchor();
+    void                                 forget_motion() override { anchor(); }
 
-    /// External and internal force of free components, motions that are free taken out.
-    void   compute_residual(const NodalVector &external);
-    double relative_tolerance() const;
     /// Solves for the correction of the residual; tells the result of failures. Collective.
     bool solve(EquilibriumStep &result);
-    /// iterate() of bonds that soften, with supports in place.
-    bool iterate_softening(const NodalVector &external, EquilibriumStep &result);
-    /// Moves along the step as far as it helps; false where nothing did. Collective.
-    bool search(const NodalVector &external);
+    /// External and internal force of free components, motions that are free taken out.
+    void compute_residual(const NodalVector &external);
+    /// Begins a step whose held components stand in their places.
+    void start_in_place();
+    /// The force on free components as held components, and faces as prepared, move by their increments.
+    void force_of_supports(NodalVector &result);
+    /// What a linear system may leave of its first residual.
+    double relative_tolerance() const;
 
     using EquilibriumPath<dim>::force;
     using EquilibriumPath<dim>::held;
@@ -96,21 +92,35 @@ namespace perideal
     ConstrainedOperator<dim> &system;
     TangentSolver<dim>       &linear;
     const NullSpace<dim>     &null_space;
+    NodalVector               held_increment, residual, correction;
+    /// Whether bonds that soften may jump to an equilibrium far off.
+    bool may_jump = true;
 
-    /// The springs that hold disconnected nodes: where they are at rest [m], and how many nodes they hold.
+  private:
+    void start_step(const double time) override;
+    bool is_in_place() const override { return in_place; }
+    bool iterate(const NodalVector &external, EquilibriumStep &result) override;
+    /// Holds the nodes that are disconnected from the supports. Collective.
+    void anchor();
+
+    /// iterate() of bonds that soften, with supports in place.
+    bool iterate_softening(const NodalVector &external, EquilibriumStep &result);
+    /// Moves along the step as far as it helps; false where nothing did. Collective.
+    bool search(const NodalVector &external);
+
+    /// The springs that hold disconnected nodes: where they are at rest [m], how stiff the nodes are in the
+    /// whole body [N/m], and how many nodes they hold.
     struct Anchors
     {
       FindFloating find_floating;
-      NodalVector  place;
+      NodalVector  place, rest_stiffness;
       GlobalIndex  n_nodes = 0;
     };
     Anchors anchors;
 
-    /// What held components have still to move.
-    NodalVector                          held_increment;
+    /// Whether held components are where they belong; else they have their increments still to move.
     bool                                 in_place = true;
-    NodalVector                          residual, correction, rest_stiffness;
-    typename EquilibriumPath<dim>::Norms norms = {};
+    typename EquilibriumPath<dim>::Norms norms    = {};
 
     /// Where a line search begins; of bonds that soften, the iterations by the secant that are still to come,
     /// the least squared residual of the step [N^2], and how long it has been.

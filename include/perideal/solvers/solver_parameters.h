@@ -6,6 +6,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <string>
+
 namespace perideal
 {
   /// What is solved.
@@ -83,6 +85,20 @@ namespace perideal
     static constexpr const char *list[] = {"velocity verlet", "symplectic euler"};
   };
 
+  /// What grows by prescribed amounts from load step to load step of quasi statics.
+  enum class LoadControlName
+  {
+    loads,
+    gauge,
+    dissipated_energy
+  };
+
+  template <>
+  struct ChoiceNames<LoadControlName>
+  {
+    static constexpr const char *list[] = {"loads", "gauge", "dissipated energy"};
+  };
+
   /// Section "Solver".
   struct SolverParameters
   {
@@ -93,6 +109,10 @@ namespace perideal
     PreconditionerName preconditioner = PreconditionerName::automatic;
     AuxiliaryMesh      auxiliary_mesh = AuxiliaryMesh::automatic;
     unsigned int       load_steps     = 1;
+    /// What is controlled, a gauge by its name, how far it goes and by which steps [m or J]; 0: chosen.
+    LoadControlName control = LoadControlName::loads;
+    std::string     control_gauge;
+    double          control_end = 0, control_step = 0;
     /// Newton iterations of an equilibrium.
     unsigned int newton_iterations = 25;
     /// Times that a load step may be halved before it has failed.
@@ -112,6 +132,10 @@ namespace perideal
     bool is_dynamic() const { return name == SolverName::dynamics; }
     bool is_relaxation() const { return name == SolverName::dynamic_relaxation; }
     bool is_quasi_static() const { return name == SolverName::quasi_static; }
+    /// Whether this is controlled in load steps of quasi statics.
+    bool controls(const LoadControlName what) const { return is_quasi_static() && control == what; }
+    /// Whether the loads are an unknown.
+    bool is_controlled() const { return is_quasi_static() && control != LoadControlName::loads; }
     /// Equilibria of the nonlinear force.
     bool is_nonlinear_static() const { return is_relaxation() || is_quasi_static(); }
 

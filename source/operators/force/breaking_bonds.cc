@@ -209,7 +209,7 @@ namespace perideal
         BondArray result{"-", 2, {}, {}};
         for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
           for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-            if (const double share = softening.share(slot, 1.);
+            if (const double share = softening.share(slot);
                 bonds.neighbour[slot] != i && share > 0 && share < 1)
               {
                 result.bonds.push_back({i, bonds.neighbour[slot]});
@@ -249,6 +249,23 @@ namespace perideal
         remove(slot);
         lose(slot, ends.near, volumes.broken);
       }
+  }
+
+  template <int dim>
+  std::vector<double> BreakingBonds<dim>::damage() const
+  {
+    std::vector<double> volume = volumes.broken;
+    if (softening.softens())
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          if (const double left = softening.share(slot); left < 1 && carries_force(slot))
+            {
+              const LocalIndex j = bonds.neighbour[slot];
+              volume[i] += (1. - left) * counted_volume(*families, i, j);
+              if (j < families->n_owned())
+                volume[j] += (1. - left) * counted_volume(*families, j, i);
+            }
+    return share_of_family(volume);
   }
 
   template <int dim>

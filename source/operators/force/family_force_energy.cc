@@ -79,11 +79,11 @@ namespace perideal
             for (int d = 0; d < dim; ++d)
               y[d] = position[j].value[d] - position[i].value[d];
             const double length = y.norm(), rest = rest_length[slot];
-            double       magnitude = stiffness(slot) * (length - rest) * rest;
+            const double longer = length - rest, left = softening.share(slot);
+            double       magnitude = softening.stiffness_left(slot, longer) * stiffness(slot) * longer * rest;
             for (unsigned int a = 0; a < n_sums; ++a)
-              magnitude +=
-                force_weight(a, {slot, true}) * state[a][i] + force_weight(a, {slot, false}) * state[a][j];
-            magnitude *= softening.share(slot, length - rest);
+              magnitude += left * (force_weight(a, {slot, true}) * state[a][i] +
+                                   force_weight(a, {slot, false}) * state[a][j]);
             visit(i, j, length > 0 ? magnitude * rest / length * y : dealii::Tensor<1, dim>());
           }
   }
@@ -101,8 +101,8 @@ namespace perideal
         {
           const LocalIndex j     = bonds.neighbour[slot];
           const double     eps   = motion(slot, i, j, at_rest).eps;
-          const double     share = j < n_owned ? 1. : 0.5, carried = softening.share(slot, eps) * eps;
-          result += share * 0.5 * stiffness(slot) * carried * eps;
+          const double     share = j < n_owned ? 1. : 0.5, carried = softening.share(slot) * eps;
+          result += share * 0.5 * softening.stiffness_left(slot, eps) * stiffness(slot) * eps * eps;
           if constexpr (own_force_weights)
             {
               force[i][0] += force_weight(0, {slot, true}) * carried;
@@ -166,7 +166,7 @@ namespace perideal
             const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
-                const double weight = softening.share(end.slot, m.eps) * force_weight(a, end);
+                const double weight = softening.share(end.slot) * force_weight(a, end);
                 after.force[a] += weight * m.eps;
                 after.force_rate[a] += weight * m.rate;
               }

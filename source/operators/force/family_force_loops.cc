@@ -46,7 +46,7 @@ namespace perideal
               }
             Lanes extension = (length - rest) * rest * unit_sum;
             if constexpr (failing == Failing::gradually)
-              softening.multiply(extension, k, length - rest);
+              extension *= softening.shares_of(k);
             for (unsigned int a = 0; a < n_sums; ++a)
               {
                 Lanes near, far;
@@ -104,6 +104,12 @@ namespace perideal
               }
             load(magnitude, weights.stiffness.data() + k);
             magnitude *= (length - rest) * rest * unit_stiffness;
+            [[maybe_unused]] Lanes left;
+            if constexpr (failing == Failing::gradually)
+              {
+                left = softening.shares_of(k);
+                magnitude *= length > rest ? left : Lanes{} + 1.;
+              }
             if constexpr (n_sums > 0)
               {
                 Lanes by_states = {};
@@ -115,11 +121,11 @@ namespace perideal
                     const double *s = state[a].data();
                     by_states += near * s[i] + far * Lanes{s[j[0]], s[j[1]], s[j[2]], s[j[3]]};
                   }
+                if constexpr (failing == Failing::gradually)
+                  by_states *= left;
                 magnitude += by_states * unit_force;
               }
             magnitude *= rest / length;
-            if constexpr (failing == Failing::gradually)
-              softening.multiply(magnitude, k, length - rest);
             for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
               {
                 const Lanes pull = magnitude[lane] * bond[lane];

@@ -63,9 +63,10 @@ namespace perideal
   SofteningBonds::Left SofteningBonds::left(const BondIndex slot, const double stretch) const
   {
     Left result;
-    result.share = share(slot, stretch);
+    result.share     = share(slot);
+    result.stiffness = stiffness_left(slot, stretch);
     // On its way down, it is what the law says of this stretch.
-    if (result.share > 0 && result.share < 1 &&
+    if (stretch > 0 && result.share > 0 && result.share < 1 &&
         std::abs(law.carried(stretch, first[slot], brittle_square[slot]) - result.share) <= 1e-6)
       result.slope = law.slope(stretch, first[slot], brittle_square[slot]);
     return result;

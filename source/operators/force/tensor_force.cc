@@ -60,6 +60,42 @@ namespace perideal
   }
 
   template <int dim>
+  void TensorForce<dim>::press_together(const LocalIndex i,
+                                        const BondIndex  first_slot,
+                                        const Lanes     &loose,
+                                        const Lanes     &longer)
+  {
+    for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+      if (const BondIndex slot = first_slot + lane; loose[lane] * longer[lane] < 0)
+        {
+          const LocalIndex j = bonds.neighbour[slot];
+          // The tensors of the loop are in units of the largest component.
+          const dealii::Tensor<1, dim> pull = (loose[lane] / unit) * pressed(slot, i, j).force;
+          for (int d = 0; d < dim; ++d)
+            {
+              forces[i].value[d] += pull[d];
+              forces[j].value[d] -= pull[d];
+            }
+        }
+  }
+
+  template <int dim>
+  typename TensorForce<dim>::Pressed
+  TensorForce<dim>::pressed(const BondIndex slot, const LocalIndex i, const LocalIndex j) const
+  {
+    dealii::Tensor<1, dim> bond;
+    for (int d = 0; d < dim; ++d)
+      bond[d] = position[j].value[d] - position[i].value[d];
+    const double length = bond.norm(), longer = length - rest_length[slot];
+    if (longer >= 0 || length == 0)
+      return {};
+    const dealii::Tensor<1, dim> direction =
+      (families->position[j] - families->position[i]) / rest_length[slot];
+    const double stiffness = direction * (tensor(slot) * direction);
+    return {stiffness * longer / length * bond, 0.5 * stiffness * longer * longer};
+  }
+
+  template <int dim>
   template <bool can_break>
   void TensorForce<dim>::sum_forces()
   {
@@ -93,7 +129,11 @@ namespace perideal
                 if (__builtin_expect(any_negative(margin), false))
                   break_bonds(i, k, margin);
                 if (softens)
-                  softening.multiply(share, k, longer);
+                  {
+                    share = softening.shares_of(k);
+                    if (const Lanes loose = 1. - share; __builtin_expect(any_negative(loose * longer), false))
+                      press_together(i, k, loose, longer);
+                  }
               }
             const Lanes eta[4] = {
               lanes(u[j[0]]) - ui, lanes(u[j[1]]) - ui, lanes(u[j[2]]) - ui, lanes(u[j[3]]) - ui};
@@ -136,21 +176,15 @@ namespace perideal
   }
 
   template <int dim>
-  double TensorForce<dim>::share_left(const BondIndex slot, const LocalIndex i, const LocalIndex j) const
-  {
-    double square = 0;
-    for (int d = 0; d < dim; ++d)
-      square += (position[j].value[d] - position[i].value[d]) * (position[j].value[d] - position[i].value[d]);
-    return softening.share(slot, std::sqrt(square) - rest_length[slot]);
-  }
-
-  template <int dim>
   void TensorForce<dim>::visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const
   {
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i)
-          visit(i, j, share_left(slot, i, j) * (tensor(slot) * eta(i, j)));
+          {
+            const double left = softening.share(slot);
+            visit(i, j, left * (tensor(slot) * eta(i, j)) + (1. - left) * pressed(slot, i, j).force);
+          }
   }
 
   template <int dim>
@@ -161,9 +195,11 @@ namespace perideal
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         {
           const LocalIndex j     = bonds.neighbour[slot];
-          const double     share = (j < families->n_owned() ? 1. : 0.5) * share_left(slot, i, j);
-          const auto       e     = eta(i, j);
-          result += share * 0.5 * (e * (tensor(slot) * e));
+          const double     share = j < families->n_owned() ? 1. : 0.5, left = softening.share(slot);
+          const auto       e = eta(i, j);
+          result += share * left * 0.5 * (e * (tensor(slot) * e));
+          if (left < 1)
+            result += share * (1. - left) * pressed(slot, i, j).energy;
         }
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }

@@ -82,7 +82,7 @@ namespace perideal
         deformation.scale[slot] *= left.share;
         if (left.share == 0.)
           return;
-        double along = left.share * whole + by_length;
+        double along = left.stiffness * whole + by_length;
         if (!secant && tension > 0)
           along += -by_length * stretched / left.share * left.slope;
         deformation.stiffness[slot] = along / (left.share * left.share);
@@ -148,9 +148,15 @@ namespace perideal
               dealii::Tensor<1, dim> bond;
               for (int d = 0; d < dim; ++d)
                 bond[d] = y[j].value[d] - y[i].value[d];
-              const double share = force.softening_bonds().share(slot, bond.norm() - x[i].distance(x[j]));
-              for (auto &values : rest.component)
-                values[slot] *= share;
+              const SofteningBonds           &softening = force.softening_bonds();
+              const dealii::Tensor<1, dim>    along     = x[j] - x[i];
+              const double                    left      = softening.share(slot);
+              dealii::SymmetricTensor<2, dim> tensor    = left * rest.at(slot);
+              if (const double own = softening.stiffness_left(slot, bond.norm() - along.norm()); own > left)
+                tensor += (own - left) * (along * (rest.at(slot) * along)) /
+                          std::pow(along.norm_square(), 2) *
+                          dealii::symmetrize(dealii::outer_product(along, along));
+              rest.set(slot, tensor);
             }
       }
 

@@ -30,7 +30,7 @@ namespace perideal
     void                register_state(LastingState &state) override;
     const BondList     &bond_list() const override { return bonds; }
     const NodeRecord   *positions() const override { return position.data(); }
-    std::vector<double> damage() const override { return share_of_family(volumes.broken); }
+    std::vector<double> damage() const override;
     std::vector<double> cut_share() const override { return share_of_family(volumes.cut); }
     double              share_computed() const override { return regions.share_awake(); }
 

@@ -13,9 +13,10 @@
 namespace perideal
 {
   /**
-   * Keeps what is left of bonds that soften (SofteningLaw), by slot: a share of all their weights, as long as
-   * they are stretched; pressed together they are whole. The stretch beyond which a bond goes on to soften is
-   * its limit, which the force holds that lengths are checked against.
+   * Keeps what is left of bonds that soften (SofteningLaw), by slot: a share of all their weights. Pressed
+   * together, a bond resists its shortening like a whole one; its part in the sums of its families stays what
+   * is left, so that force and energy are continuous where a crack closes. The stretch beyond which a bond
+   * goes on to soften is its limit, which the force holds that lengths are checked against.
    *
    * Where bonds are not judged, a change lasts until the next begin() only: each state is seen as if the body
    * came to it from the last one that was judged.
@@ -51,24 +52,27 @@ namespace perideal
     /// Softens a bond whose stretch is beyond its limit.
     Change soften(const BondIndex slot, const double stretch, float &limit);
 
-    /// Share g of its weights that a bond has at this stretch [-], and dg/ds where it goes on to soften.
+    /// Share g of its weights that a bond has [-], what it has of its own stiffness at this stretch, and
+    /// dg/ds where it goes on to soften.
     struct Left
     {
-      double share = 1, slope = 0;
+      double share = 1, stiffness = 1, slope = 0;
     };
     Left left(const BondIndex slot, const double stretch) const;
 
-    /// The share alone, of a bond that is this much longer than at rest.
-    double share(const BondIndex slot, const double longer) const
+    /// The share g alone.
+    double share(const BondIndex slot) const { return shares.empty() ? 1. : shares[slot]; }
+    /// What a bond that is this much longer than at rest has of its own stiffness.
+    double stiffness_left(const BondIndex slot, const double longer) const
     {
-      return shares.empty() || longer <= 0 ? 1. : shares[slot];
+      return longer > 0 ? share(slot) : 1.;
     }
-    /// Multiplies what four bonds have by their shares.
-    PERIDEAL_INLINE void multiply(Lanes &value, const BondIndex first_slot, const Lanes &longer) const
+    /// The shares of four bonds.
+    PERIDEAL_INLINE Lanes shares_of(const BondIndex first_slot) const
     {
-      Lanes of_bonds;
-      load(of_bonds, shares.data() + first_slot);
-      value *= longer > 0 ? of_bonds : Lanes{} + 1.;
+      Lanes result;
+      load(result, shares.data() + first_slot);
+      return result;
     }
 
     /// Sets what an earlier run left of a bond.

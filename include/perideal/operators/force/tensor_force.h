@@ -63,8 +63,18 @@ namespace perideal
     /// The tensor as it is [N/m].
     dealii::SymmetricTensor<2, dim> tensor(const BondIndex slot) const { return unit * tensors.at(slot); }
 
-    /// What softening has left of a bond's tensor.
-    double share_left(const BondIndex slot, const LocalIndex i, const LocalIndex j) const;
+    /// Adds what bonds of a group that softened, and are pressed together, resist their shortening by.
+    /// @param loose what they have lost of themselves
+    /// @param longer than at rest [m]
+    void
+    press_together(const LocalIndex i, const BondIndex first_slot, const Lanes &loose, const Lanes &longer);
+    /// How a whole bond resists its shortening, along itself: nothing of one that is stretched.
+    struct Pressed
+    {
+      dealii::Tensor<1, dim> force;
+      double                 energy = 0;
+    };
+    Pressed pressed(const BondIndex slot, const LocalIndex i, const LocalIndex j) const;
 
     /// u_j - u_i.
     dealii::Tensor<1, dim> eta(const LocalIndex i, const LocalIndex j) const;

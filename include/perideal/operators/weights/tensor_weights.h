@@ -26,6 +26,12 @@ namespace perideal
       return result;
     }
 
+    void set(const BondIndex slot, const dealii::SymmetricTensor<2, dim> &tensor)
+    {
+      for (unsigned int p = 0; p < n_components; ++p)
+        component[p][slot] = static_cast<Number>(tensor.access_raw_entry(p));
+    }
+
     /// tensor times eta of the four bonds from @p slot on; both by component of the vectors, the rest zero.
     PERIDEAL_INLINE void multiply(const BondIndex slot, const Lanes (&eta)[4], Lanes (&force)[4]) const
     {

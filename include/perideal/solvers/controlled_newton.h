@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_controlled_newton_h
+#define perideal_solvers_controlled_newton_h
+
+#include <perideal/solvers/newton.h>
+
+namespace perideal
+{
+  /**
+   * Finds equilibria under loads whose factor t is an unknown too: the amount by which something grows is
+   * prescribed instead, the opening of a gauge or the dissipated energy (Verhoosel, Remmers and Gutierrez,
+   * International Journal for Numerical Methods in Engineering 77, 1290-1321, 2009). So a path is followed
+   * where the loads must fall for equilibrium, as they must where a crack needs less of them the longer it
+   * is, and where what is prescribed at a grip must go back (snap-back).
+   *
+   * With the residual r, the stiffness K of the bonds and the force q on the nodes by unit t, of loads and
+   * supports, an iteration solves K x = r and K y = q, moves by x + y dt, and takes the dt with which the
+   * controlled quantity, read at the moved body and not linearised, is what it should be.
+   *
+   * Where bonds soften, K is at first the secant: what the bonds have left, which is positive definite and
+   * leads to the equilibrium from afar, by about .6 of the residual an iteration; then the tangent, which
+   * finishes. Where the tangent does not lead on, since bonds change between softening, unloading and
+   * closing, some more secants do. No iterate leaves a trace in the bonds: they are judged at the
+   * equilibrium.
+   */
+  template <int dim>
+  class ControlledNewton : public NewtonSolver<dim>
+  {
+  public:
+    using typename EquilibriumPath<dim>::Progress;
+
+    /// Sets the force of the loads [N] to a time. Collective.
+    using LoadsAt = std::function<void(const double, NodalVector &)>;
+    /// Reads what is controlled off a displacement [m]. Collective.
+    using Gauge = std::function<double(const NodalVector &)>;
+
+    /// The controlled quantity and what the loads are.
+    struct Control
+    {
+      LoadsAt loads_at;
+      /// Empty: the dissipated energy.
+      Gauge gauge;
+      /// Change of t that is small enough to tell how loads change, and the largest one of an iteration.
+      double small_time = 0, large_time = 0;
+    };
+
+    /// As those of NewtonSolver.
+    template <typename... Arguments>
+    explicit ControlledNewton(const Control &control, Arguments &&...arguments)
+      : NewtonSolver<dim>(std::forward<Arguments>(arguments)...)
+      , control(control)
+    {
+      initialize();
+    }
+
+    /// Goes on from the last equilibrium to one at which the controlled quantity has grown by an amount. A
+    /// failure is reported, not thrown. Collective.
+    EquilibriumStep advance(const double amount, const Progress &progress);
+
+    /// Goes on from the last equilibrium to one at a time, if it can without a jump. Collective.
+    EquilibriumStep load(const double time, const Progress &progress);
+
+    /// The same, by whatever jump it takes. Collective.
+    EquilibriumStep jump(const double time, const Progress &progress);
+
+    /// Restores the last equilibrium, with its time.
+    void go_back();
+
+    /// Factor of the loads at the last equilibrium, and by how much the controlled quantity grew in the step
+    /// that led there.
+    double time() const { return previous.time; }
+    double time_change() const { return previous.time_change; }
+    double amount() const { return previous.amount; }
+
+    /// From now on a step by load() fails where it dissipates more [J].
+    void limit_dissipation(const double energy) { this->breaks.most_dissipated = energy; }
+
+    void register_state(LastingState &state) override;
+    void resume(const NodalVector &external, const double time) override;
+
+  private:
+    enum class Slope
+    {
+      secant,
+      tangent
+    };
+
+    void initialize();
+    /// Starts along the way of the last step.
+    void predict(const double amount);
+    /// The change of the controlled quantity since the last equilibrium.
+    double changed() const;
+    /// Brings loads, supports and nodes to where a share of x and a change of t lead. Collective.
+    void place(const double share, const double time_change);
+    /// One iteration; false, back where it began, where there is none. Collective.
+    bool correct(const double amount, const Slope slope, EquilibriumStep &result);
+    /// The force by unit t at the present state. Collective.
+    void prepare_loads();
+    /// Solves until a residual norm is left [N]; from the solution, which may do already. Collective.
+    bool
+    solve(NodalVector &solution, const NodalVector &source, const double residual, EquilibriumStep &result);
+    /// The change of t with which the controlled quantity is right after the whole x. Collective.
+    double find_time_change(const double amount);
+    /// Keeps an equilibrium and the way to it.
+    void keep_step(const double change);
+
+    using EquilibriumPath<dim>::displacement;
+    using EquilibriumPath<dim>::held;
+    using EquilibriumPath<dim>::last;
+
+    const Control control;
+    /// The loads at the present time [N] and those a little later; y [m].
+    NodalVector  external, later, of_loads, by_secant, by_tangent, first_residual;
+    NodalVector *by_loads = &by_secant;
+    double       now      = 0;
+    /// Where an iteration begins.
+    struct Start
+    {
+      NodalVector displacement;
+      double      time = 0;
+    };
+    Start start;
+    /// The last equilibrium and the step to it.
+    struct Previous
+    {
+      NodalVector motion;
+      double      time = 0, time_change = 0, amount = 0, reading = 0;
+    };
+    Previous previous;
+  };
+} // namespace perideal
+
+#endif

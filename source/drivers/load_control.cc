@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/input_errors.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/load_control.h>
+#include <perideal/output/progress.h>
+#include <perideal/problem/make_gauges.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Iterations of a step that is found easily, after which the next one is longer.
+    constexpr unsigned int few_iterations = 14;
+    constexpr double       growth         = 1.5;
+    /// Share of the largest step from which on dissipated energy is controlled.
+    constexpr double noticed = 0.02;
+    /// Shortest load step over the largest.
+    constexpr double shortest = 1e-4;
+    /// Strain energy over the largest at which a body bears nothing any more.
+    constexpr double nothing_left = 1e-3;
+  } // namespace
+
+  template <int dim>
+  typename ControlledNewton<dim>::Control LoadControl<dim>::control_of(Problem<dim> &problem)
+  {
+    const SolverParameters                 &solver = problem.parameters.solver;
+    typename ControlledNewton<dim>::Control control;
+    control.loads_at = [&problem](const double time, NodalVector &force) {
+      problem.apply_loads(time);
+      problem.free_motions.project(problem.state.external_force);
+      force = problem.state.external_force;
+    };
+    control.small_time = 1e-3 / solver.load_steps;
+    control.large_time = 1. / solver.load_steps;
+    if (solver.control != LoadControlName::gauge)
+      return control;
+    const auto gauges = std::make_shared<const Gauges<dim>>(make_gauges(problem));
+    const auto found =
+      std::find_if(gauges->list().begin(), gauges->list().end(), [&](const Gauge<dim> &gauge) {
+        return solver.control_gauge.empty() || gauge.name == solver.control_gauge;
+      });
+    const std::size_t number = found - gauges->list().begin();
+    AssertIndexRange(number, gauges->list().size());
+    control.gauge = [gauges, number](const NodalVector &displacement) {
+      return gauges->read(displacement)[number].elongation;
+    };
+    control.large_time = 1.;
+    return control;
+  }
+
+  template <int dim>
+  LoadControl<dim>::LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path)
+    : solver(problem.parameters.solver)
+    , problem(problem)
+    , path(path)
+    , largest_time_step(1. / solver.load_steps)
+    , largest_amount(solver.control == LoadControlName::gauge ? solver.control_end / solver.load_steps :
+                     solver.control_step > 0                  ? solver.control_step :
+                                                                default_amount())
+    , time_step(largest_time_step)
+    , amount(largest_amount)
+    , by_loads(solver.control == LoadControlName::dissipated_energy)
+  {
+    if (by_loads)
+      path.limit_dissipation(growth * largest_amount);
+  }
+
+  template <int dim>
+  double LoadControl<dim>::default_amount() const
+  {
+    const Body<dim> &body   = problem.body;
+    double           volume = std::accumulate(body.nodes->volume.begin(), body.nodes->volume.end(), 0.);
+    volume                  = dealii::Utilities::MPI::sum(volume, problem.run.communicator);
+    const double cell       = volume / body.nodes->n_global;
+    double       energy     = 0;
+    for (const auto id : body.mesh->material_ids)
+      energy = std::max(energy, body.properties_of(id).fracture_energy);
+    if (dim == 2)
+      return energy * std::sqrt(cell / body.mesh->thickness) * body.mesh->thickness;
+    return energy * std::cbrt(cell) * std::cbrt(volume);
+  }
+
+  template <int dim>
+  EquilibriumStep LoadControl<dim>::next(unsigned int                                  &n_failed,
+                                         const Announce                                &announce,
+                                         const typename EquilibriumPath<dim>::Progress &progress)
+  {
+    EquilibriumStep result;
+    while (true)
+      {
+        EquilibriumStep now = attempt(announce, progress);
+        now.add_before(result);
+        result = now;
+        if (result.converged || !shorten())
+          break;
+        ++n_failed;
+        path.go_back();
+      }
+    return result;
+  }
+
+  template <int dim>
+  EquilibriumStep LoadControl<dim>::attempt(const Announce                                &announce,
+                                            const typename EquilibriumPath<dim>::Progress &progress)
+  {
+    EquilibriumStep result;
+    if (by_loads)
+      {
+        const double target = std::min(1., path.time() + time_step);
+        announce("to t = " + short_number(target));
+        result = path.load(target, progress);
+      }
+    else
+      {
+        const double left   = solver.control_end > 0 ? solver.control_end - reached : amount;
+        const double target = amount > (1. - 1e-3) * left ? left : amount;
+        announce((solver.control == LoadControlName::gauge ? "gauge by " : "dissipated energy by ") +
+                 short_number(target));
+        result = path.advance(target, progress);
+      }
+    if (result.converged)
+      lengthen(result.iterations);
+    return result;
+  }
+
+  template <int dim>
+  void LoadControl<dim>::lengthen(const unsigned int iterations)
+  {
+    reached += path.amount();
+    largest_energy = std::max(largest_energy, path.energy().strain);
+    if (by_loads)
+      {
+        by_loads = path.amount() < noticed * largest_amount;
+        if (iterations <= few_iterations)
+          time_step = std::min(largest_time_step, 2. * time_step);
+        return;
+      }
+    if (iterations <= few_iterations)
+      amount = std::min(largest_amount, growth * amount);
+    if (solver.control == LoadControlName::dissipated_energy &&
+        path.time_change() >= (1. - 1e-3) * largest_time_step)
+      {
+        by_loads  = true;
+        time_step = largest_time_step;
+      }
+  }
+
+  template <int dim>
+  bool LoadControl<dim>::shorten()
+  {
+    if (by_loads)
+      {
+        time_step *= 0.5;
+        if (time_step > shortest * largest_time_step)
+          return true;
+        by_loads = false;
+        return true;
+      }
+    amount *= 0.5;
+    return amount >= std::ldexp(largest_amount, -static_cast<int>(solver.step_halvings));
+  }
+
+  template <int dim>
+  bool LoadControl<dim>::is_done() const
+  {
+    const double end = solver.control_end;
+    if (end > 0 && reached >= (1. - 1e-6) * end)
+      return true;
+    if (solver.control == LoadControlName::gauge)
+      return false;
+    return path.time() >= 1. || path.energy().strain < nothing_left * largest_energy;
+  }
+
+  template <int dim>
+  void LoadControl<dim>::register_state(LastingState &state)
+  {
+    state.add_value("load step by loads", by_loads);
+    state.add_value("load step", time_step);
+    state.add_value("load step of what is controlled", amount);
+    state.add_value("controlled until now", reached);
+    state.add_value("largest strain energy", largest_energy);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(LoadControl)
+} // namespace perideal

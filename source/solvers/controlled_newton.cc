@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/finite.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/solvers/controlled_newton.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace perideal
+{
+  namespace
+  {
+    /// How far the amount of a step may be from the one asked for: a length of steps more than a result.
+    constexpr double amount_tolerance = 0.02;
+    /// Largest step over the one before that a prediction extends.
+    constexpr double longest_prediction = 1.5;
+    /// What solves with the secant and the tangent may leave of the residual: the secant itself leaves about
+    /// .6 of it, the tangent little.
+    constexpr double of_secant = 0.2, of_tangent = 0.01;
+    /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
+    constexpr unsigned int first_secants = 8, more_secants = 5;
+    /// Trials of an iteration by the tangent, each half as long as the one before, and what the residual may
+    /// be over that before.
+    constexpr unsigned int n_trials     = 2;
+    constexpr double       largest_left = 0.5;
+  } // namespace
+
+  template <int dim>
+  void ControlledNewton<dim>::initialize()
+  {
+    for (NodalVector *vector : {&external, &later, &of_loads, &by_secant, &by_tangent, &first_residual})
+      vector->reinit(this->residual);
+    for (NodalVector *vector : {&start.displacement, &previous.motion})
+      this->bonds.initialize(*vector);
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::register_state(LastingState &state)
+  {
+    NewtonSolver<dim>::register_state(state);
+    state.add_node_array("motion of the last load step", "m", dim, previous.motion);
+    state.add_node_array("displacement by unit loads", "m", dim, by_secant);
+    state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_tangent);
+    state.add_value("load factor", previous.time);
+    state.add_value("change of the load factor", previous.time_change);
+    state.add_value("controlled amount", previous.amount);
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::resume(const NodalVector &loads, const double time)
+  {
+    NewtonSolver<dim>::resume(loads, time);
+    now              = time;
+    previous.reading = control.gauge ? control.gauge(displacement) : 0.;
+  }
+
+  template <int dim>
+  double ControlledNewton<dim>::changed() const
+  {
+    return control.gauge ? control.gauge(displacement) - previous.reading : this->dissipated_since(external);
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::place(const double share, const double time_change)
+  {
+    displacement = start.displacement;
+    displacement.add(share, this->correction, time_change, *by_loads);
+    now = start.time + time_change;
+    held.set_boundary_values(this->loads, now, displacement);
+    if (this->face_values != nullptr)
+      this->face_values->set_time(this->loads, now);
+    control.loads_at(now, external);
+    this->compute_forces();
+  }
+
+  template <int dim>
+  EquilibriumStep ControlledNewton<dim>::advance(const double amount, const Progress &progress)
+  {
+    this->start_in_place();
+    this->increment      = 0.;
+    this->breaks.in_step = false;
+    predict(amount);
+    EquilibriumStep result;
+    const bool      softens   = this->bonds.softening_bonds().softens();
+    unsigned int    n_secants = softens ? first_secants : 0, since_progress = 0;
+    double          least_residual = std::numeric_limits<double>::max();
+    while (true)
+      {
+        const auto   norms     = this->measure(external);
+        const double reference = std::sqrt(std::max({norms.reaction, norms.load, last.largest_load}));
+        const double residual = std::sqrt(norms.residual), change = changed();
+        result.residuals.push_back(reference > 0 ? residual / reference : (residual > 0 ? 1. : 0.));
+        progress(result.iterations, result.residuals.back());
+        if (!is_finite(reference + residual + change))
+          return result;
+        if (residual <= std::max(this->controls.tolerance * reference, this->rounding.force) &&
+            std::abs(change - amount) <= amount_tolerance * amount)
+          {
+            const GlobalIndex now = this->controls.bonds_break ? this->judge(external) : 0;
+            result.broken += now;
+            // Bonds that soften have carried by then what they carry once they are judged.
+            if (softens || now == 0)
+              {
+                this->settle(external, norms);
+                keep_step(change);
+                result.converged = true;
+                return result;
+              }
+            since_progress = 0;
+            continue;
+          }
+        if (residual < 0.1 * least_residual)
+          {
+            least_residual = residual;
+            since_progress = 0;
+          }
+        if (since_progress++ == this->controls.max_iterations)
+          return result;
+        ++result.iterations;
+        if (n_secants > 0)
+          --n_secants;
+        else if (correct(amount, Slope::tangent, result))
+          continue;
+        else if (softens)
+          n_secants = more_secants - 1;
+        if (!softens || !correct(amount, Slope::secant, result))
+          return result;
+      }
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::predict(const double amount)
+  {
+    const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
+    start              = {displacement, previous.time + ahead * previous.time_change};
+    this->correction   = 0.;
+    start.displacement.add(ahead, previous.motion);
+    place(0., 0.);
+  }
+
+  template <int dim>
+  EquilibriumStep ControlledNewton<dim>::load(const double time, const Progress &progress)
+  {
+    this->may_jump         = false;
+    EquilibriumStep result = jump(time, progress);
+    this->may_jump         = true;
+    return result;
+  }
+
+  template <int dim>
+  EquilibriumStep ControlledNewton<dim>::jump(const double time, const Progress &progress)
+  {
+    const double before = this->energy().dissipated;
+    control.loads_at(time, external);
+    EquilibriumStep result = this->step(external, time, progress);
+    if (result.converged)
+      {
+        now = time;
+        keep_step(control.gauge ? changed() : this->energy().dissipated - before);
+      }
+    return result;
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::keep_step(const double change)
+  {
+    previous.motion      = this->increment;
+    previous.time_change = now - previous.time;
+    previous.time        = now;
+    previous.amount      = change;
+    previous.reading += change;
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::go_back()
+  {
+    this->restore();
+    now = previous.time;
+  }
+
+  template <int dim>
+  bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
+  {
+    const bool secant = slope == Slope::secant;
+    this->tangent.linearise(this->bonds, secant);
+    start = {displacement, now};
+    prepare_loads();
+    const double norm = this->residual.l2_norm();
+    by_loads          = secant ? &by_secant : &by_tangent;
+    if (!solve(*by_loads,
+               of_loads,
+               secant ? of_secant * norm / std::max(std::abs(now), control.small_time) :
+                        of_tangent * of_loads.l2_norm(),
+               result))
+      return false;
+    // As the secant has it, loads in proportion to t displace by t times what they do at t = 1.
+    this->correction = 0.;
+    if (secant)
+      {
+        this->correction.add(now, *by_loads);
+        for (std::size_t k = 0; k < held.mask().size(); ++k)
+          if (!held.mask()[k])
+            this->correction.local_element(k) -= displacement.local_element(k);
+      }
+    if (!solve(this->correction, this->residual, (secant ? 2. * of_secant : of_tangent) * norm, result))
+      return false;
+    const double time_change = find_time_change(amount);
+    if (!std::isfinite(time_change))
+      {
+        result.problem = "the controlled quantity does not change with the loads";
+        return false;
+      }
+    double share = 1.;
+    for (unsigned int trial = 0; trial < n_trials; ++trial, share *= 0.5)
+      {
+        place(share, share * time_change);
+        this->compute_residual(external);
+        if (secant || this->residual.l2_norm() <= largest_left * norm)
+          return true;
+      }
+    place(0., 0.);
+    return false;
+  }
+
+  template <int dim>
+  bool ControlledNewton<dim>::solve(NodalVector       &solution,
+                                    const NodalVector &source,
+                                    const double       residual,
+                                    EquilibriumStep   &result)
+  {
+    this->system.vmult(first_residual, solution);
+    first_residual.sadd(-1., source);
+    const double first = first_residual.l2_norm();
+    if (first <= residual)
+      return true;
+    const LinearSolve solving = this->linear.solve(solution, source, residual / first);
+    result.linear_iterations += solving.iterations;
+    if (!solving.converged)
+      result.problem = "the linear solver (" + this->linear.name() + ") did not converge";
+    return solving.converged;
+  }
+
+  template <int dim>
+  void ControlledNewton<dim>::prepare_loads()
+  {
+    const double step    = control.small_time;
+    this->held_increment = displacement;
+    held.set_boundary_values(this->loads, now + step, this->held_increment);
+    this->held_increment -= displacement;
+    if (this->face_values != nullptr)
+      this->face_values->prepare(this->loads, now + step);
+    this->force_of_supports(of_loads);
+    if (this->face_values != nullptr)
+      this->face_values->prepare(this->loads, now);
+    control.loads_at(now + step, later);
+    later -= external;
+    const auto &is_held = held.mask();
+    for (std::size_t k = 0; k < is_held.size(); ++k)
+      if (!is_held[k])
+        of_loads.local_element(k) += later.local_element(k);
+    of_loads *= 1. / step;
+    this->null_space.project(of_loads);
+  }
+
+  template <int dim>
+  double ControlledNewton<dim>::find_time_change(const double amount)
+  {
+    place(1., 0.);
+    const double first = changed();
+    place(1., control.small_time);
+    const double slope = (changed() - first) / control.small_time;
+    return std::clamp((amount - first) / slope, -control.large_time, control.large_time);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(ControlledNewton)
+} // namespace perideal
