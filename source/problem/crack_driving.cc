@@ -164,7 +164,7 @@ namespace perideal
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         // Along a bond that softened the displacement jumps.
         if (const LocalIndex j = bonds.neighbour[slot];
-            j != i && !is_lost[slot] && force.softening_bonds().share(slot, 1.) == 1.)
+            j != i && !is_lost[slot] && force.softening_bonds().share(slot) == 1.)
           {
             fit.add(i, j);
             fit.add(j, i);

@@ -11,43 +11,6 @@ namespace perideal
 
   namespace
   {
-    /// Share of the family behind bonds that precracks cut or that broke, and what others have lost as they
-    /// softened, by owned node.
-    template <int dim>
-    std::vector<double> share_lost(const Problem<dim> &problem)
-    {
-      const Families<dim>  &families = *problem.discretisation.families;
-      const BondForce<dim> &force    = *problem.force;
-      const BondList       &bonds    = force.bond_list();
-      std::vector<double>   result   = total_damage(force);
-      if (!force.softening_bonds().softens())
-        return result;
-      std::vector<bool> is_gone(bonds.n_slots(), false);
-      for (const auto &bond : force.lost_bonds())
-        is_gone[bond.slot] = true;
-      std::vector<double> family(families.n_owned(), 0.), softened(families.n_owned(), 0.);
-      const auto          count = [&](const LocalIndex i, const LocalIndex j, const double lost) {
-        if (i < families.n_owned())
-          {
-            family[i] += families.volume[j];
-            softened[i] += lost * families.volume[j];
-          }
-      };
-      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-          if (const LocalIndex j = bonds.neighbour[slot]; j != i)
-            {
-              // Any stretch tells what is left of a bond; pressed together it is whole.
-              const double lost = is_gone[slot] ? 0. : 1. - force.softening_bonds().share(slot, 1.);
-              count(i, j, lost);
-              count(j, i, lost);
-            }
-      for (LocalIndex i = 0; i < result.size(); ++i)
-        if (family[i] > 0)
-          result[i] += softened[i] / family[i];
-      return result;
-    }
-
     /// Follows the cracks that the scene names: their tips and what drives them by step, and their paths at
     /// the end.
     template <int dim>
@@ -67,7 +30,7 @@ namespace perideal
       void observe(const Step<dim> &step, const Record &) override
       {
         if (step.newly_broken > 0 || kind.has_iterations)
-          tracker.update(step.time, share_lost(problem));
+          tracker.update(step.time, total_damage(*problem.force));
       }
 
       void record(const Step<dim> &step, const Record &record) override

@@ -121,7 +121,8 @@ namespace perideal
     /// Dilatation at the last compute() by owned node; 0 where the model needs none.
     virtual std::vector<double> dilatation() const = 0;
 
-    /// Share of the family's volume behind broken bonds by owned node, and behind those cut at the beginning.
+    /// Share of the family's volume behind broken bonds by owned node, those that softened by what they lost,
+    /// and behind those cut at the beginning.
     virtual std::vector<double> damage() const    = 0;
     virtual std::vector<double> cut_share() const = 0;
 
