@@ -61,7 +61,7 @@ def write(specimens):
         rows = kept(name)
         lines += ["| " + " | ".join(astuple(row)) + " |" for row in rows]
         if any(row.within == "no" for row in rows):
-            misses.append(f"- **{rows[0].specimen}**: {why}")
+            misses.append(f"- **{name.replace('_', ' ')}**: {why}")
     if misses:
         lines += ["", "## Misses", "", *misses]
     (HERE / "README.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
