@@ -22,6 +22,8 @@ STRIP = ["Mesh/Cells=60, 20"]
 BAR = ["Mesh/Cells=30, 6", "Solver/Load steps=10"]
 # Nodes on the surface; no bonds break.
 PLATE = ["Mesh/Cells=40, 20", "Solver/Name=dynamic relaxation", "Solver/Tolerance=1e-8", "Solver/Load steps=4"]
+# Bonds soften from step 16 on; the loads are an unknown.
+SLIT = ["Mesh/Cells=24, 24"]
 # How the solver came to the same equilibrium.
 WAY = ("iterations", "linear iterations", "residual [-]")
 RESTART = ["Checkpoints/Restart=true"]
@@ -122,6 +124,19 @@ def check_plate(runs):
     expect_other_ranks_close(runs, "two", "whole")
 
 
+def check_slit(runs):
+    """Softening bonds and load steps by dissipated energy, from before and from behind the peak."""
+    runs.run("whole")
+    steps = summary(runs, "whole")["solver"]["steps"]
+    if steps < 30:
+        raise Failure(f"the path has {steps} steps")
+    for interval in (17, 25):
+        name = f"from {interval}"
+        runs.stop(name, signal.SIGKILL, interval, overrides=[f"Checkpoints/Steps={interval}"])
+        runs.run(name, overrides=RESTART)
+        expect_same(runs, name, "whole", steps)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
@@ -133,6 +148,7 @@ def main():
         ("notched_strip", STRIP, check_strip),
         ("hyperelastic_bar", BAR, check_bar),
         ("pdbc_1_mixed", PLATE, check_plate),
+        ("slit_square", SLIT, check_slit),
     )
     for name, base, check in scenes:
         with tempfile.TemporaryDirectory() as directory:

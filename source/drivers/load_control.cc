@@ -20,6 +20,8 @@ namespace perideal
     constexpr double       growth         = 1.5;
     /// Share of the largest step from which on dissipated energy is controlled.
     constexpr double noticed = 0.02;
+    /// Share of the largest step that may be missing at the end of one.
+    constexpr double nearly_there = 0.03;
     /// Shortest load step over the largest.
     constexpr double shortest = 1e-4;
     /// Strain energy over the largest at which a body bears nothing any more.
@@ -110,16 +112,18 @@ namespace perideal
                                             const typename EquilibriumPath<dim>::Progress &progress)
   {
     EquilibriumStep result;
-    if (by_loads)
+    if (by_loads || jumps)
       {
         const double target = std::min(1., path.time() + time_step);
-        announce("to t = " + short_number(target));
-        result = path.load(target, progress);
+        announce((jumps ? "by a jump to t = " : "to t = ") + short_number(target));
+        result = jumps ? path.jump(target, progress) : path.load(target, progress);
       }
     else
       {
-        const double left   = solver.control_end > 0 ? solver.control_end - reached : amount;
-        const double target = amount > (1. - 1e-3) * left ? left : amount;
+        double left = solver.control_end > 0 ? solver.control_end - reached : amount;
+        if (solver.control == LoadControlName::gauge)
+          left = largest_amount * (std::floor(reached / largest_amount + nearly_there) + 1.) - reached;
+        const double target = amount > (1. - nearly_there) * left ? left : amount;
         announce((solver.control == LoadControlName::gauge ? "gauge by " : "dissipated energy by ") +
                  short_number(target));
         result = path.advance(target, progress);
@@ -134,6 +138,13 @@ namespace perideal
   {
     reached += path.amount();
     largest_energy = std::max(largest_energy, path.energy().strain);
+    if (jumps)
+      {
+        jumps    = false;
+        by_loads = path.amount() < noticed * largest_amount;
+        amount   = largest_amount;
+        return;
+      }
     if (by_loads)
       {
         by_loads = path.amount() < noticed * largest_amount;
@@ -162,15 +173,22 @@ namespace perideal
         by_loads = false;
         return true;
       }
+    const double least = std::ldexp(largest_amount, -static_cast<int>(solver.step_halvings));
+    if (jumps)
+      return false;
     amount *= 0.5;
-    return amount >= std::ldexp(largest_amount, -static_cast<int>(solver.step_halvings));
+    if (amount >= least || solver.control == LoadControlName::gauge)
+      return amount >= least;
+    jumps     = true;
+    time_step = largest_time_step;
+    return true;
   }
 
   template <int dim>
   bool LoadControl<dim>::is_done() const
   {
     const double end = solver.control_end;
-    if (end > 0 && reached >= (1. - 1e-6) * end)
+    if (end > 0 && reached >= end - nearly_there * largest_amount)
       return true;
     if (solver.control == LoadControlName::gauge)
       return false;

@@ -11,19 +11,24 @@ namespace perideal
 {
   namespace
   {
-    /// How far the amount of a step may be from the one asked for: a length of steps more than a result.
-    constexpr double amount_tolerance = 0.02;
+    /// How far a step may be from the amount asked for: of a gauge, and of dissipated energy, which is a
+    /// length of steps more than a result.
+    constexpr double of_gauge = 1e-3, of_dissipation = 0.02;
     /// Largest step over the one before that a prediction extends.
     constexpr double longest_prediction = 1.5;
     /// What solves with the secant and the tangent may leave of the residual: the secant itself leaves about
     /// .6 of it, the tangent little.
     constexpr double of_secant = 0.2, of_tangent = 0.01;
+    /// The least that is asked of a solve with the secant for the loads, over these.
+    constexpr double least_left = 1e-6;
     /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
     constexpr unsigned int first_secants = 8, more_secants = 5;
     /// Trials of an iteration by the tangent, each half as long as the one before, and what the residual may
     /// be over that before.
-    constexpr unsigned int n_trials     = 2;
-    constexpr double       largest_left = 0.5;
+    constexpr unsigned int n_trials = 2;
+    /// Readings of what is controlled that find a change of t.
+    constexpr unsigned int most_readings = 5;
+    constexpr double       largest_left  = 0.5;
   } // namespace
 
   template <int dim>
@@ -53,6 +58,12 @@ namespace perideal
     NewtonSolver<dim>::resume(loads, time);
     now              = time;
     previous.reading = control.gauge ? control.gauge(displacement) : 0.;
+  }
+
+  template <int dim>
+  double ControlledNewton<dim>::may_miss(const double amount) const
+  {
+    return (control.gauge ? of_gauge : of_dissipation) * std::abs(amount);
   }
 
   template <int dim>
@@ -95,10 +106,16 @@ namespace perideal
         if (!is_finite(reference + residual + change))
           return result;
         if (residual <= std::max(this->controls.tolerance * reference, this->rounding.force) &&
-            std::abs(change - amount) <= amount_tolerance * amount)
+            std::abs(change - amount) <= may_miss(amount))
           {
             const GlobalIndex now = this->controls.bonds_break ? this->judge(external) : 0;
             result.broken += now;
+            // The work along a long way is not exact: so much may seem to be dissipated where nothing is.
+            if (!control.gauge && !this->breaks.in_segment)
+              {
+                result.problem = "no bond softens any more";
+                return result;
+              }
             // Bonds that soften have carried by then what they carry once they are judged.
             if (softens || now == 0)
               {
@@ -142,9 +159,11 @@ namespace perideal
   template <int dim>
   EquilibriumStep ControlledNewton<dim>::load(const double time, const Progress &progress)
   {
-    this->may_jump         = false;
-    EquilibriumStep result = jump(time, progress);
-    this->may_jump         = true;
+    this->may_jump               = false;
+    this->breaks.most_dissipated = most_by_loads;
+    EquilibriumStep result       = jump(time, progress);
+    this->may_jump               = true;
+    this->breaks.most_dissipated = std::numeric_limits<double>::infinity();
     return result;
   }
 
@@ -182,16 +201,18 @@ namespace perideal
   template <int dim>
   bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
   {
-    const bool secant = slope == Slope::secant;
+    const bool secant = slope == Slope::secant, searches = !secant && this->bonds.softening_bonds().softens();
     this->tangent.linearise(this->bonds, secant);
     start = {displacement, now};
     prepare_loads();
-    const double norm = this->residual.l2_norm();
-    by_loads          = secant ? &by_secant : &by_tangent;
+    const double norm   = this->residual.l2_norm();
+    by_loads            = secant ? &by_secant : &by_tangent;
+    const double of_all = of_loads.l2_norm();
     if (!solve(*by_loads,
                of_loads,
-               secant ? of_secant * norm / std::max(std::abs(now), control.small_time) :
-                        of_tangent * of_loads.l2_norm(),
+               secant ? std::max(of_secant * norm / std::max(std::abs(now), control.small_time),
+                                 least_left * of_all) :
+                        of_tangent * of_all,
                result))
       return false;
     // As the secant has it, loads in proportion to t displace by t times what they do at t = 1.
@@ -216,7 +237,7 @@ namespace perideal
       {
         place(share, share * time_change);
         this->compute_residual(external);
-        if (secant || this->residual.l2_norm() <= largest_left * norm)
+        if (!searches || this->residual.l2_norm() <= largest_left * norm)
           return true;
       }
     place(0., 0.);
@@ -266,11 +287,29 @@ namespace perideal
   template <int dim>
   double ControlledNewton<dim>::find_time_change(const double amount)
   {
-    place(1., 0.);
-    const double first = changed();
-    place(1., control.small_time);
-    const double slope = (changed() - first) / control.small_time;
-    return std::clamp((amount - first) / slope, -control.large_time, control.large_time);
+    const auto miss = [&](const double time_change) {
+      place(1., time_change);
+      return changed() - amount;
+    };
+    double       earlier = 0., of_earlier = miss(earlier);
+    const double enough = 0.5 * may_miss(amount);
+    if (std::abs(of_earlier) <= enough)
+      return earlier;
+    // By secants, where bonds soften at other loads than those where they were linearised.
+    double time_change = control.small_time, now = miss(time_change);
+    for (unsigned int k = 0; k < most_readings && std::abs(now) > enough; ++k)
+      {
+        const double next = std::clamp(time_change - now * (time_change - earlier) / (now - of_earlier),
+                                       -control.large_time,
+                                       control.large_time);
+        if (!std::isfinite(next) || next == time_change)
+          return next;
+        earlier     = time_change;
+        of_earlier  = now;
+        time_change = next;
+        now         = miss(time_change);
+      }
+    return time_change;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ControlledNewton)

@@ -4,6 +4,9 @@
 
 #include <perideal/solvers/newton.h>
 
+#include <limits>
+#include <utility>
+
 namespace perideal
 {
   /**
@@ -28,6 +31,7 @@ namespace perideal
   {
   public:
     using typename EquilibriumPath<dim>::Progress;
+    using NewtonSolver<dim>::displacement;
 
     /// Sets the force of the loads [N] to a time. Collective.
     using LoadsAt = std::function<void(const double, NodalVector &)>;
@@ -73,7 +77,7 @@ namespace perideal
     double amount() const { return previous.amount; }
 
     /// From now on a step by load() fails where it dissipates more [J].
-    void limit_dissipation(const double energy) { this->breaks.most_dissipated = energy; }
+    void limit_dissipation(const double energy) { most_by_loads = energy; }
 
     void register_state(LastingState &state) override;
     void resume(const NodalVector &external, const double time) override;
@@ -90,6 +94,8 @@ namespace perideal
     void predict(const double amount);
     /// The change of the controlled quantity since the last equilibrium.
     double changed() const;
+    /// How far that may be from an amount asked for.
+    double may_miss(const double amount) const;
     /// Brings loads, supports and nodes to where a share of x and a change of t lead. Collective.
     void place(const double share, const double time_change);
     /// One iteration; false, back where it began, where there is none. Collective.
@@ -104,11 +110,11 @@ namespace perideal
     /// Keeps an equilibrium and the way to it.
     void keep_step(const double change);
 
-    using EquilibriumPath<dim>::displacement;
     using EquilibriumPath<dim>::held;
     using EquilibriumPath<dim>::last;
 
     const Control control;
+    double        most_by_loads = std::numeric_limits<double>::infinity();
     /// The loads at the present time [N] and those a little later; y [m].
     NodalVector  external, later, of_loads, by_secant, by_tangent, first_residual;
     NodalVector *by_loads = &by_secant;

@@ -1,88 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/materials/models.h>
-#include <perideal/solvers/newton.h>
-
-#include "bodies.h"
+#include "newton_body.h"
 #include "testing.h"
 
 #include <cmath>
 
 using namespace perideal;
+using namespace perideal::test;
 
 namespace
 {
-  using Variant = std::pair<std::string, std::string>;
-
   const std::vector<Variant> variants = {{"bond based", "energy"},
                                          {"ordinary", "energy"},
                                          {"extended ordinary", "paper"},
                                          {"extended ordinary", "energy"}};
-
-  const auto no_progress = [](const unsigned int, const double) {};
-
-  BoundaryConditionText condition(const std::string &boundary, const std::vector<std::string> &displacement)
-  {
-    BoundaryConditionText result;
-    result.name = result.boundary = boundary;
-    std::copy(displacement.begin(), displacement.end(), result.displacement.begin());
-    return result;
-  }
-
-  /// A plane body of unit modulus, held and loaded, with what Newton's method takes.
-  struct NewtonBody
-  {
-    NewtonBody(const Mesh<2>                            &mesh,
-               const Variant                            &variant,
-               const std::vector<BoundaryConditionText> &conditions,
-               const NewtonSolver<2>::Controls          &controls = {1e-8, 25, false})
-      : body(mesh)
-      , mirror(std::make_shared<MirrorLayer<2>>(body.nodes))
-    {
-      LoadParameters text;
-      text.conditions = conditions;
-      loads           = resolve_boundaries(mesh, Loads<2>(text));
-      held            = DirichletNodes<2>(find_boundary_faces(mesh, body.nodes), loads, body.nodes.size());
-      ModelParameters model;
-      model.model = variant.first;
-      model.form  = variant.second;
-      model.resolve(2);
-      const ElasticConstants own = model.constants_of_model({1., 0.3, PlaneAssumption::plane_stress});
-      const std::shared_ptr<const BondWeights<2>> weights =
-        weigh_bonds<2>(body.families, *create_model<2>(model, 1.), [&](const dealii::types::material_id) {
-          return ElasticSolid<2>(own);
-        });
-      bonds   = create_bond_force<2>(*weights);
-      tangent = create_tangent<2>(weights);
-      system  = std::make_unique<ConstrainedOperator<2>>(tangent, mirror, body.nodes, held.mask());
-      linear  = std::make_unique<TangentSolver<2>>(parameters, [this](const SolverParameters &solver) {
-        return create_linear_solver<2>(
-          solver, {PreconditionerName::block_jacobi, {}, ""}, *system, null_space, body.nodes, nullptr);
-      });
-      newton  = std::make_unique<NewtonSolver<2>>(
-        *bonds, *tangent, *system, *linear, held, loads, null_space, controls);
-      bonds->initialize(load);
-    }
-
-    /// A force per volume along y on all nodes.
-    void push(const double force)
-    {
-      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
-        load.local_element(2 * i + 1) = force * body.nodes.volume[i];
-    }
-
-    test::Body<2>                           body;
-    std::shared_ptr<MirrorLayer<2>>         mirror;
-    Loads<2>                                loads;
-    DirichletNodes<2>                       held;
-    NullSpace<2>                            null_space;
-    SolverParameters                        parameters;
-    std::unique_ptr<BondForce<2>>           bonds;
-    std::shared_ptr<TangentOperator<2>>     tangent;
-    std::unique_ptr<ConstrainedOperator<2>> system;
-    std::unique_ptr<TangentSolver<2>>       linear;
-    std::unique_ptr<NewtonSolver<2>>        newton;
-    NodalVector                             load;
-  };
 
   /// The exponent of convergence: of the last three residuals above a bound.
   double exponent(const std::vector<double> &residuals, const double bound)
@@ -105,7 +35,7 @@ namespace
       {
         SCOPED_TRACE(variant.first + ", " + variant.second);
         NewtonBody body(*mesh, variant, {clamped(), condition("1", {"0.4*t", "0.2*t"})}, {1e-12, 25, false});
-        const EquilibriumStep step = body.newton->step(body.load, 1., no_progress);
+        const EquilibriumStep step = body.newton->step(body.load, 1., no_newton_progress);
         EXPECT_TRUE(step.converged) << step.problem;
         // Below 1e-10, the single precision of the force, 6e-8 of the tangent, makes it linear.
         EXPECT_GE(exponent(step.residuals, 1e-10), 1.7) << ::testing::PrintToString(step.residuals);
@@ -120,11 +50,11 @@ namespace
         {
           SCOPED_TRACE(variant.first + ", " + variant.second + ", " + stretch);
           NewtonBody            body(*mesh, variant, {clamped(), condition("1", {stretch, "0"})});
-          const EquilibriumStep step = body.newton->step(body.load, 1., no_progress);
+          const EquilibriumStep step = body.newton->step(body.load, 1., no_newton_progress);
           EXPECT_TRUE(step.converged) << step.problem;
           EXPECT_LE(step.iterations, 6u) << ::testing::PrintToString(step.residuals);
           // A further step with nothing new.
-          EXPECT_EQ(body.newton->step(body.load, 1., no_progress).iterations, 0u);
+          EXPECT_EQ(body.newton->step(body.load, 1., no_newton_progress).iterations, 0u);
           // The work that went in is the strain energy, but for the trapezoidal rule along a path that
           // is nearly straight.
           if (variant.second == "energy")
@@ -145,9 +75,9 @@ namespace
         const std::vector<BoundaryConditionText> conditions = {clamped(), condition("1", {"0.2*t", "0.1*t"})};
         NewtonBody                               at_once(*mesh, variant, conditions);
         NewtonBody                               slowly(*mesh, variant, conditions);
-        EXPECT_TRUE(at_once.newton->step(at_once.load, 1., no_progress).converged);
+        EXPECT_TRUE(at_once.newton->step(at_once.load, 1., no_newton_progress).converged);
         for (unsigned int n = 1; n <= 5; ++n)
-          EXPECT_TRUE(slowly.newton->step(slowly.load, 0.2 * n, no_progress).converged);
+          EXPECT_TRUE(slowly.newton->step(slowly.load, 0.2 * n, no_newton_progress).converged);
         at_once.newton->displacement -= slowly.newton->displacement;
         // The residual of 1e-8 times the ratio of the slowest to the fastest motion, some 100.
         EXPECT_LT(at_once.newton->displacement.l2_norm(), 1e-6 * slowly.newton->displacement.l2_norm());
@@ -186,14 +116,14 @@ namespace
         SCOPED_TRACE(force);
         NewtonBody at_once(*mesh, variants[0], {clamped()});
         at_once.push(force);
-        const EquilibriumStep step = at_once.newton->step(at_once.load, 1., no_progress);
+        const EquilibriumStep step = at_once.newton->step(at_once.load, 1., no_newton_progress);
         EXPECT_TRUE(step.converged) << step.problem << ::testing::PrintToString(step.residuals);
 
         NewtonBody slowly(*mesh, variants[0], {clamped()});
         for (unsigned int n = 1; n <= 20; ++n)
           {
             slowly.push(0.05 * n * force);
-            EXPECT_TRUE(slowly.newton->step(slowly.load, 0.05 * n, no_progress).converged);
+            EXPECT_TRUE(slowly.newton->step(slowly.load, 0.05 * n, no_newton_progress).converged);
           }
         const NodalVector &right  = slowly.newton->displacement;
         NodalVector        whole  = by_whole_steps(at_once);
@@ -245,12 +175,12 @@ namespace
   {
     const auto mesh = test::make_box<2>({8, 4}, {2., 1.}, 0.);
     NewtonBody body(*mesh, variants[0], {clamped(), condition("1", {"0.2*t", "0"})}, {1e-8, 1, false});
-    const EquilibriumStep step = body.newton->step(body.load, 1., no_progress);
+    const EquilibriumStep step = body.newton->step(body.load, 1., no_newton_progress);
     EXPECT_FALSE(step.converged);
     EXPECT_EQ(step.iterations, 1u);
     // Nothing holds it along y.
     NewtonBody loose(*mesh, variants[0], {condition("0", {"0"})});
     loose.push(1e-3);
-    EXPECT_FALSE(loose.newton->step(loose.load, 1., no_progress).converged);
+    EXPECT_FALSE(loose.newton->step(loose.load, 1., no_newton_progress).converged);
   }
 } // namespace
