@@ -87,7 +87,7 @@ def slit_square(runner, long):
     """The square with a slit: its peak over that of Griffith by the domain integral, energy, iterations, time."""
     rows = []
     for cells in (64, *([128] if long else [])):
-        mesh, scene = f"{cells} x {cells}", "slit_square/slit_square.prm"
+        mesh, scene = f"{cells} x {cells}", "../../prm/examples/slit_square.prm"
         size = f"Mesh/Cells={cells}, {cells}"
         elastic = runner.run(scene, f"slit_square/elastic {cells}",
                              [size, "Material/Fracture energy=0", "Material/Softening=none", "Solver/Control=loads",

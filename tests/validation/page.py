@@ -11,10 +11,10 @@ RESULTS = HERE / "results"
 OPENING = """# Validation: what a crack costs
 
 Specimens with a solution or an experiment, and what the program makes of them. Constants were fixed beforehand, as the
-head of each scene says, and none was fitted. Misses stay; what is known of them stands below the table. All of this
-page is generated:
+head of each scene says, and none was fitted. Misses stay; what is known of them stands below the table. The page is
+generated from the rows of `results/`, which these runs write; some of the finest meshes take `--long`:
 
-    tests/validation/run.py --program build/perideal --long
+    tests/validation/run.py --program build/perideal [--only NAME] [--long]
 """
 
 

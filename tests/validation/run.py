@@ -30,10 +30,8 @@ SPECIMENS = {
               "the load tends to Griffith's as the cells become smaller. On 60 x 20 cells the crack of the energy form spreads over "
               "five rows; that of springs stops, and the strip tears along the edges held, where families lack bonds."),
     "slit_square": (cracks.slit_square,
-                    "G of the domain integral is 1.12 of G0 where the crack begins to run and 1.01 after half its way; what it "
-                    "dissipates agrees with that, but not with the strip. The horizon is a tenth of the slit, and the peak comes "
-                    "before the crack is a cell longer. Neither is settled, nor what takes the load steps of many iterations so "
-                    "long."),
+                    "on 64 cells the horizon is a tenth of the slit, and the ends of the crack cost 5 % of it. A step takes 18 "
+                    "iterations, most by the secant, and each of them reads the dissipated energy several times."),
     "bar": (concrete.bar,
             "a bond softens from the stretch f_t/E on, whatever its direction. In the bulk those along the pull do so first, while the "
             "others still gain force: where bonds soften slowly (a horizon much shorter than E G_f/f_t^2) the bulk bears up to "
