@@ -37,7 +37,7 @@ def three_point_bending(runner, long):
             except Failed as failure:
                 rows.append(Row("notched beam", "Gregoire et al. 2013", mesh, "a run to its end", "", str(failure), "no"))
                 continue
-            runner.plot("plot_opening.sh", run, "load", "y", "mouth")
+            runner.plot("plot_reaction.sh", run, "load", "y", "mouth")
             mouth = run.column("elongation of mouth")
             load = [-force for force in run.column("reaction of load along y")]
             (opening, most), tail = peak(mouth, load), at(mouth, load, 1e-4)
