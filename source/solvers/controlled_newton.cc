@@ -23,12 +23,12 @@ namespace perideal
     constexpr double least_left = 1e-6;
     /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
     constexpr unsigned int first_secants = 8, more_secants = 5;
-    /// Trials of an iteration by the tangent, each half as long as the one before, and what the residual may
-    /// be over that before.
+    /// Trials of an iteration by the tangent, each half as long as the one before.
     constexpr unsigned int n_trials = 2;
+    /// What the residual after such an iteration may be over that before.
+    constexpr double largest_left = 0.5;
     /// Readings of what is controlled that find a change of t.
     constexpr unsigned int most_readings = 5;
-    constexpr double       largest_left  = 0.5;
   } // namespace
 
   template <int dim>
@@ -108,8 +108,8 @@ namespace perideal
         if (residual <= std::max(this->controls.tolerance * reference, this->rounding.force) &&
             std::abs(change - amount) <= may_miss(amount))
           {
-            const GlobalIndex now = this->controls.bonds_break ? this->judge(external) : 0;
-            result.broken += now;
+            const GlobalIndex n_broken = this->controls.bonds_break ? this->judge(external) : 0;
+            result.broken += n_broken;
             // The work along a long way is not exact: so much may seem to be dissipated where nothing is.
             if (!control.gauge && !this->breaks.in_segment)
               {
@@ -117,7 +117,7 @@ namespace perideal
                 return result;
               }
             // Bonds that soften have carried by then what they carry once they are judged.
-            if (softens || now == 0)
+            if (softens || n_broken == 0)
               {
                 this->settle(external, norms);
                 keep_step(change);
@@ -140,7 +140,10 @@ namespace perideal
         else if (correct(amount, Slope::tangent, result))
           continue;
         else if (softens)
-          n_secants = more_secants - 1;
+          {
+            n_secants = more_secants - 1;
+            result.problem.clear();
+          }
         if (!softens || !correct(amount, Slope::secant, result))
           return result;
       }
@@ -227,19 +230,17 @@ namespace perideal
     if (!solve(this->correction, this->residual, (secant ? 2. * of_secant : of_tangent) * norm, result))
       return false;
     const double time_change = find_time_change(amount);
-    if (!std::isfinite(time_change))
+    double       share       = 1.;
+    for (unsigned int trial = 0; std::isfinite(time_change) && trial < n_trials; ++trial, share *= 0.5)
       {
-        result.problem = "the controlled quantity does not change with the loads";
-        return false;
-      }
-    double share = 1.;
-    for (unsigned int trial = 0; trial < n_trials; ++trial, share *= 0.5)
-      {
-        place(share, share * time_change);
+        if (trial > 0)
+          place(share, share * time_change);
         this->compute_residual(external);
         if (!searches || this->residual.l2_norm() <= largest_left * norm)
           return true;
       }
+    if (!std::isfinite(time_change))
+      result.problem = "the controlled quantity does not change with the loads";
     place(0., 0.);
     return false;
   }

@@ -22,7 +22,7 @@ namespace perideal
     LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path);
 
     /// What a path under control needs of a problem, which must outlive it. Collective.
-    /// @throws InputError on a gauge that is none
+    /// The rules have found the gauge. @throws InputError where it ends outside the body
     static typename ControlledNewton<dim>::Control control_of(Problem<dim> &problem);
 
     /// Called before each attempt with what it is, in words.

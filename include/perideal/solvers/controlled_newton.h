@@ -98,14 +98,15 @@ namespace perideal
     double may_miss(const double amount) const;
     /// Brings loads, supports and nodes to where a share of x and a change of t lead. Collective.
     void place(const double share, const double time_change);
-    /// One iteration; false, back where it began, where there is none. Collective.
+    /// One iteration; false, with the body back where it began, where there is none. Collective.
     bool correct(const double amount, const Slope slope, EquilibriumStep &result);
     /// The force by unit t at the present state. Collective.
     void prepare_loads();
     /// Solves until a residual norm is left [N]; from the solution, which may do already. Collective.
     bool
     solve(NodalVector &solution, const NodalVector &source, const double residual, EquilibriumStep &result);
-    /// The change of t with which the controlled quantity is right after the whole x. Collective.
+    /// The change of t with which the controlled quantity is right after the whole x, where the body is left;
+    /// not a number where there is none. Collective.
     double find_time_change(const double amount);
     /// Keeps an equilibrium and the way to it.
     void keep_step(const double change);
