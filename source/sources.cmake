@@ -125,6 +125,7 @@ set(perideal_sources
 
   materials/bond_based.cc
   materials/boundary_compensation.cc
+  materials/bulk_strength.cc
   materials/conical_bond_based.cc
   materials/consistent.cc
   materials/correspondence.cc

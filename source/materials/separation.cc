@@ -3,7 +3,6 @@
 #include <perideal/materials/separation.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -16,40 +15,42 @@
 namespace perideal
 {
   template <int dim>
+  std::vector<dealii::Tensor<1, dim>> directions_of_bonds(const FamilyView<dim> &family,
+                                                          const unsigned int     max_normals)
+  {
+    std::vector<dealii::Tensor<1, dim>> all, result;
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        dealii::Tensor<1, dim> bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = family.bond[d][j];
+        all.push_back(bond / bond.norm());
+      }
+    // One after another, that which is farthest from those there are.
+    std::vector<double> nearness(all.size(), 0.);
+    while (result.size() < std::min<std::size_t>(max_normals, all.size()))
+      {
+        const auto next = std::min_element(nearness.begin(), nearness.end()) - nearness.begin();
+        if (nearness[next] > 1. - 1e-6)
+          break;
+        result.push_back(all[next]);
+        for (std::size_t k = 0; k < all.size(); ++k)
+          nearness[k] = std::max(nearness[k], std::abs(all[k] * result.back()));
+      }
+    return result;
+  }
+
+  template <int dim>
   Separation<dim>::Separation(const FamilyView<dim>    &family,
                               const FamilyCoefficients &coefficients,
                               const FamilyShape        &shape)
     : family(family)
-    , coefficients(coefficients)
     , shape(shape)
+    , left(coefficients, shape)
     , place(family.size)
     , reach(family.size)
     , opening(family.size)
   {
-  }
-
-  template <int dim>
-  double Separation<dim>::of_sums(const std::array<double, 2> &sums, const double force) const
-  {
-    if (shape.own_force_weights)
-      return 2. * sums[0] * (force + coefficients.energy * sums[0]);
-    const auto &map = coefficients.map;
-    return shape.n_sums == 0 ?
-             0. :
-           shape.n_sums == 1 ?
-             map[0] * sums[0] * sums[0] :
-             map[0] * sums[0] * sums[0] + 2. * map[1] * sums[0] * sums[1] + map[2] * sums[1] * sums[1];
-  }
-
-  template <int dim>
-  double Separation<dim>::of_bond(const LocalIndex j, const Vector &normal) const
-  {
-    if (!shape.bond_tensors)
-      return coefficients.stiffness[j] * reach[j] * reach[j];
-    dealii::SymmetricTensor<2, dim> tensor;
-    for (unsigned int c = 0; c < tensor.n_independent_components; ++c)
-      tensor.access_raw_entry(c) = coefficients.tensor[c][j];
-    return normal * (tensor * normal);
   }
 
   template <int dim>
@@ -92,38 +93,26 @@ namespace perideal
         const double width = reach[across[n - 1]] - (n < across.size() ? reach[across[n]] : 0.);
         if (width <= 1e-12 * family.horizon)
           continue;
-        std::array<double, 2> sums  = {{0., 0.}};
-        double                force = 0;
+        left.clear();
         for (std::size_t k = 0; k < n; ++k)
-          {
-            const LocalIndex j = across[k];
-            for (unsigned int a = 0; a < shape.n_sums; ++a)
-              sums[a] += coefficients.sum[a][j] * reach[j];
-            if (shape.own_force_weights)
-              force += coefficients.force_weight[0][j] * reach[j];
-          }
-        double twice = of_sums(sums, force);
+          left.add(across[k], 1., reach[across[k]], normal);
+        double twice = left.twice();
         for (auto first = order.begin(); first != order.end();)
           {
             // Bonds that break at the same opening share what falls, whichever comes first.
             auto         end   = first;
-            double       alone = 0;
             unsigned int count = 0;
             for (; end != order.end() && opening[*end] <= (1. + 1e-9) * opening[*first]; ++end)
-              if (const LocalIndex j = *end; place[j] < n)
+              if (place[*end] < n)
                 {
-                  for (unsigned int a = 0; a < shape.n_sums; ++a)
-                    sums[a] -= coefficients.sum[a][j] * reach[j];
-                  if (shape.own_force_weights)
-                    force -= coefficients.force_weight[0][j] * reach[j];
-                  alone += of_bond(j, normal);
+                  left.add(*end, -1., reach[*end], normal);
                   ++count;
                 }
-            const double after = of_sums(sums, force);
+            const double after = left.twice();
             for (; first != end; ++first)
               if (place[*first] < n)
                 by_member[*first] +=
-                  0.5 * width * opening[*first] * (alone + twice - after) / (count * family.node_volume);
+                  0.5 * width * opening[*first] * (twice - after) / (count * family.node_volume);
             twice = after;
           }
       }
@@ -138,32 +127,6 @@ namespace perideal
     add_side(normal, squares, by_member);
     add_side(-normal, squares, by_member);
     return std::accumulate(by_member.begin(), by_member.end(), 0.);
-  }
-
-  template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  Separation<dim>::directions_of_bonds(const unsigned int max_normals) const
-  {
-    std::vector<Vector> all, result;
-    for (LocalIndex j = 0; j < family.size; ++j)
-      {
-        Vector bond;
-        for (int d = 0; d < dim; ++d)
-          bond[d] = family.bond[d][j];
-        all.push_back(bond / bond.norm());
-      }
-    // One after another, that which is farthest from those there are.
-    std::vector<double> nearness(all.size(), 0.);
-    while (result.size() < std::min<std::size_t>(max_normals, all.size()))
-      {
-        const auto next = std::min_element(nearness.begin(), nearness.end()) - nearness.begin();
-        if (nearness[next] > 1. - 1e-6)
-          break;
-        result.push_back(all[next]);
-        for (std::size_t k = 0; k < all.size(); ++k)
-          nearness[k] = std::max(nearness[k], std::abs(all[k] * result.back()));
-      }
-    return result;
   }
 
   template <int dim>
@@ -182,17 +145,16 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<double> Separation<dim>::calibrate(const BondFailing &how,
-                                                 const unsigned int max_normals,
-                                                 const unsigned int n_steps)
+  std::vector<double> Separation<dim>::calibrate(const BondFailing         &how,
+                                                 const std::vector<Vector> &normals,
+                                                 const unsigned int         n_steps)
   {
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
     // Share of the mean square of the rows that keeps stretches alike, and what a step may change.
     constexpr double regularisation = 0.01, largest_change = 0.3;
 
-    const std::vector<Vector> normals = directions_of_bonds(max_normals);
-    std::vector<double>       squares(family.size, 1.), by_member;
+    std::vector<double> squares(family.size, 1.), by_member;
     if (normals.empty())
       return std::vector<double>(family.size, 0.);
     MatrixXd matrix(normals.size(), family.size);
@@ -255,24 +217,16 @@ namespace perideal
     for (unsigned int step = 0; step <= n_steps; ++step)
       {
         // Below the first point all bonds are whole, and W grows with w^2.
-        const double          w     = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
-        std::array<double, 2> sums  = {{0., 0.}};
-        double                force = 0, alone = 0, energy = 0;
+        const double w      = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
+        double       energy = 0;
+        left.clear();
         for (std::size_t n = 0; n < across.size(); ++n)
           {
             const LocalIndex j         = across[n];
             const auto [first, square] = stretches_of(j);
-            const double stretch       = w * reach[j] / family.length_square[j];
-            const double share         = how.law.is_stable(first, square) ?
-                                           (stretch > first ? how.law.carried(stretch, first, square) : 1.) :
-                                           (stretch * stretch < square ? 1. : 0.);
-            for (unsigned int a = 0; a < shape.n_sums; ++a)
-              sums[a] += share * coefficients.sum[a][j] * reach[j];
-            if (shape.own_force_weights)
-              force += share * coefficients.force_weight[0][j] * reach[j];
-            alone += share * of_bond(j, normal);
+            left.add(j, how.share(w * reach[j] / family.length_square[j], first, square), reach[j], normal);
             const double layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
-            energy += layer * (alone + of_sums(sums, force));
+            energy += layer * left.twice();
           }
         work += (step == 0 ? 0.5 : width) * w * w * energy;
       }
@@ -303,5 +257,6 @@ namespace perideal
     return result;
   }
 
+  PERIDEAL_INSTANTIATE(directions_of_bonds)
   PERIDEAL_INSTANTIATE_CLASS(Separation)
 } // namespace perideal

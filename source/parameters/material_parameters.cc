@@ -109,12 +109,11 @@ namespace perideal
       "Softening",
       softening,
       "How the force of bonds that break by stretch falls as they open, with the fracture energy for the "
-      "area "
-      "below: " +
+      "area below: " +
         meanings_of<SofteningTraits>() +
-        ". Cracks of bonds that break at once grow late. Softening begins at Tensile strength, or where that "
-        "is "
-        "0 at 0.58 times the critical stretch of bonds that break at once");
+        ". Cracks of bonds that break at once grow late. With Tensile strength softening begins where the "
+        "bonds of a family bear it together; without, at 0.71 times the critical stretch of bonds that break "
+        "at once");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {

@@ -57,7 +57,8 @@ namespace perideal
           return;
         Calibration how;
         how.fracture_of = [this](const auto id) {
-          return BondFracture{this->body.properties_of(id).fracture_energy, stretch_of_strength(id)};
+          const auto [strain, lateral] = strain_of_strength(id);
+          return BondFracture{this->body.properties_of(id).fracture_energy, strain, lateral};
         };
         how.law         = SofteningLaw(body.parameters.material.softening);
         how.first_share = first_share;
@@ -81,28 +82,36 @@ namespace perideal
         return std::sqrt(near == far ? 0.5 * (of_near + of_far) : std::min(of_near, of_far));
       }
 
-      /// The stretch at which a bond begins to soften: that of the tensile strength, of the weaker material,
-      /// or a share of the stretch at which it would break at once.
+      /// The stretch at which a bond begins to soften: that with which families bear the tensile strength, of
+      /// the weaker material; or a share of the stretch at which it would break at once.
       double first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
       {
-        const auto of_end = [&](const LocalIndex end) {
-          const double of_strength = stretch_of_strength(families.material[end]);
+        const auto of_end = [&](const LocalIndex end, const std::vector<double> &of_family) {
+          if (!of_family.empty() && of_family[slot] > 0)
+            return of_family[slot];
+          const double of_strength = strain_of_strength(families.material[end]).first;
           return of_strength > 0 ? of_strength : first_share * (*this)(i, j, slot);
         };
-        return std::min(of_end(i), of_end(j));
+        const double of_near = of_end(i, calibrated.first_near), of_far = of_end(j, calibrated.first_far);
+        return families.material[i] == families.material[j] ? 0.5 * (of_near + of_far) :
+                                                              std::min(of_near, of_far);
       }
 
       const EnergyByDirection &shares() const { return calibrated.shares; }
 
     private:
-      /// The strain along a uniaxial stress of the tensile strength [-]; 0 of materials without one.
-      double stretch_of_strength(const dealii::types::material_id id) const
+      /// The strain along a uniaxial stress of the tensile strength, and its contraction over that [-]; {0,
+      /// 0} of materials without one.
+      std::pair<double, double> strain_of_strength(const dealii::types::material_id id) const
       {
-        const ElasticConstants solid = body.solids.at(id).isotropic();
-        return body.properties_of(id).tensile_strength / solid.young_modulus *
-               (solid.assumption == PlaneAssumption::plane_strain ?
-                  1. - solid.poisson_ratio * solid.poisson_ratio :
-                  1.);
+        const double strength = body.properties_of(id).tensile_strength;
+        if (!(strength > 0))
+          return {0., 0.};
+        const ElasticConstants solid   = body.solids.at(id).isotropic();
+        const double           nu      = solid.poisson_ratio;
+        const bool             is_thin = solid.assumption != PlaneAssumption::plane_strain;
+        return {strength / solid.young_modulus * (is_thin ? 1. : 1. - nu * nu),
+                is_thin ? nu : nu / (1. - nu)};
       }
 
       /// The square of the stretch for an end of a material.

@@ -2,12 +2,11 @@
 #ifndef perideal_materials_separation_h
 #define perideal_materials_separation_h
 
-#include <perideal/materials/linear_model.h>
+#include <perideal/materials/family_energy.h>
 #include <perideal/parameters/softening.h>
 
 #include <deal.II/base/tensor.h>
 
-#include <array>
 #include <vector>
 
 namespace perideal
@@ -26,7 +25,21 @@ namespace perideal
     double energy = 1.;
     /// Where bonds begin to soften [-]; 0: each at a share of its critical stretch.
     double first = 0., first_share = 1.;
+
+    /// Returns what is left of a bond that was never longer than at this stretch [-].
+    /// @param first s_0 @param square s_d^2
+    double share(const double stretch, const double first, const double square) const
+    {
+      return law.is_stable(first, square) ? (stretch > first ? law.carried(stretch, first, square) : 1.) :
+             stretch > 0                  ? (stretch * stretch < square ? 1. : 0.) :
+                                            1.;
+    }
   };
+
+  /// Returns the most different directions of the bonds of a family, of either sign one.
+  template <int dim>
+  std::vector<dealii::Tensor<1, dim>> directions_of_bonds(const FamilyView<dim> &family,
+                                                          const unsigned int     max_normals);
 
   /**
    * Computes what a crack costs one family: the energy that goes when the body is pulled apart along a plane,
@@ -69,11 +82,11 @@ namespace perideal
      * the 12 neighbours of a square grid and a horizon factor of 2.01, 3 % with 28. One stretch for all
      * leaves differences of 22 % and 6 %. Empty families, and such that take no energy, get zeros. Of bonds
      * that soften it is s_d^2.
-     * @param max_normals that are looked at; the most different ones of the bonds'
+     * @param normals to planes that are looked at, from directions_of_bonds()
      * @param n_steps 0: one stretch for all
      */
     std::vector<double>
-    calibrate(const BondFailing &how, const unsigned int max_normals, const unsigned int n_steps);
+    calibrate(const BondFailing &how, const std::vector<Vector> &normals, const unsigned int n_steps);
 
     /// What planes of all directions take of the energy, with these squares for it.
     EnergyByDirection by_direction(const std::vector<double> &squares, const BondFailing &how);
@@ -81,8 +94,6 @@ namespace perideal
   private:
     /// Finds the members across a plane that the family lies below, the farthest first.
     void find_across(const Vector &normal);
-    /// Twice the energy of a bond for itself, at unit opening.
-    double of_bond(const LocalIndex j, const Vector &normal) const;
     /// D over the energy wanted, as bonds fail.
     double share_of(const Vector              &normal,
                     const std::vector<double> &squares,
@@ -92,14 +103,9 @@ namespace perideal
     double softened_side(const Vector &normal, const std::vector<double> &squares, const BondFailing &how);
     /// Falls of the energy of planes of which the family lies on one side.
     void add_side(const Vector &normal, const std::vector<double> &squares, std::vector<double> &by_member);
-    /// Twice the energy of a sum of bonds that does not count members alone, at unit opening.
-    double of_sums(const std::array<double, 2> &sums, const double force) const;
-    /// The most different directions of bonds, of either sign one.
-    std::vector<Vector> directions_of_bonds(const unsigned int max_normals) const;
-
-    const FamilyView<dim>    &family;
-    const FamilyCoefficients &coefficients;
-    const FamilyShape         shape;
+    const FamilyView<dim> &family;
+    const FamilyShape      shape;
+    FamilyEnergy<dim>      left;
     /// Work space: members across, the farthest first, and in the order in which they break; by member, p,
     /// the place in the first of these lists, and the square of the opening of the break.
     std::vector<LocalIndex> across, order, place;

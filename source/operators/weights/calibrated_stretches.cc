@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/materials/bulk_strength.h>
 #include <perideal/operators/weights/calibrated_stretches.h>
 #include <perideal/operators/weights/equal_families.h>
 
@@ -19,6 +20,7 @@ namespace perideal
     struct Calibrated
     {
       std::vector<double> squares;
+      double              first = 0;
       EnergyByDirection   shares;
     };
 
@@ -33,12 +35,20 @@ namespace perideal
       const FamilyShape  shape = model.shape();
       coefficients.resize(family.size, shape);
       model.compute(family, coefficients);
-      Separation<dim>   separation(family, coefficients, shape);
-      Calibrated        result;
-      const bool        only_scale = is_one_of_many && family.size > large_family;
-      const BondFailing failing{how.law, fracture.energy, fracture.first, how.first_share};
-      result.squares =
-        separation.calibrate(failing, only_scale ? few_normals : most_normals, only_scale ? 0 : n_steps);
+      Separation<dim>    separation(family, coefficients, shape);
+      Calibrated         result;
+      const bool         only_scale = is_one_of_many && family.size > large_family;
+      BondFailing        failing{how.law, fracture.energy, fracture.of_strength, how.first_share};
+      const auto         normals = directions_of_bonds(family, only_scale ? few_normals : most_normals);
+      const unsigned int n       = only_scale ? 0 : n_steps;
+      result.squares             = separation.calibrate(failing, normals, n);
+      if (how.law.softens() && fracture.of_strength > 0 && !normals.empty())
+        {
+          const BulkStrength<dim> strength(family, coefficients, shape, normals, fracture.lateral);
+          failing.first  = strength.first_stretch(fracture.of_strength, result.squares, failing);
+          result.squares = separation.calibrate(failing, normals, n);
+        }
+      result.first = failing.first;
       if (how.with_shares)
         result.shares = separation.by_direction(result.squares, failing);
       return result;
@@ -57,6 +67,8 @@ namespace perideal
     CalibratedStretches result;
     result.near.assign(bonds.n_slots(), 0.);
     result.far = result.near;
+    if (how.law.softens())
+      result.first_near = result.first_far = result.near;
     BondCursor                   cursor(bonds);
     std::vector<BondCursor::End> ends;
     FamilyView<dim>              family;
@@ -95,12 +107,16 @@ namespace perideal
             const BondCursor::End &end = ends[family.member[k]];
             (end.is_near ? result.near : result.far)[end.slot] =
               own.squares[many_equal ? codes[k] - first_code[match.number] : k];
+            if (how.law.softens())
+              (end.is_near ? result.first_near : result.first_far)[end.slot] = own.first;
           }
         const std::array<double, 4> more = {{1., own.shares.mean, own.shares.smallest, own.shares.largest}};
         for (unsigned int m = 0; m < more.size(); ++m)
           sums[m] += more[m];
       }
     exchange_cut_bonds(families, bonds, {result.near.data()}, {result.far.data()});
+    if (how.law.softens())
+      exchange_cut_bonds(families, bonds, {result.first_near.data()}, {result.first_far.data()});
     for (double &sum : sums)
       sum = dealii::Utilities::MPI::sum(sum, families.communicator);
     if (sums[0] > 0)

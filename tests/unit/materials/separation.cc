@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/materials/lattice.h>
-#include <perideal/materials/models.h>
 #include <perideal/materials/ordinary.h>
 #include <perideal/materials/separation.h>
+
+#include "weighed_family.h"
 
 #include <gtest/gtest.h>
 
@@ -10,53 +10,29 @@
 #include <numeric>
 
 using namespace perideal;
+using perideal::test::WeighedFamily;
 
 namespace
 {
-  /// A family of a square or cubic lattice of unit cells, as a model weighs it.
+  /// Twice the energy of a whole family of springs, a plane of this normal being opened by one, over its
+  /// volume.
   template <int dim>
-  struct WeighedFamily
+  double work_of_springs(const WeighedFamily<dim>     &weighed,
+                         const dealii::Tensor<1, dim> &normal,
+                         const double                  square)
   {
-    WeighedFamily(const std::string &model,
-                  const std::string &form,
-                  const double       horizon_factor,
-                  const double       poisson_ratio      = 0.3,
-                  const std::string &influence_function = "constant")
-      : family(lattice_family<dim>(horizon_factor))
-    {
-      ModelParameters parameters;
-      parameters.model              = model;
-      parameters.form               = form;
-      parameters.influence_function = influence_function;
-      parameters.resolve(dim);
-      const auto bonds = create_model<dim>(parameters, 1.);
-      family.set_solid(parameters.constants_of_model(
-        {1., poisson_ratio, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain}));
-      shape = bonds->shape();
-      coefficients.resize(family.size, shape);
-      bonds->compute(family, coefficients);
-    }
-
-    /// Twice the energy of the whole family, a plane of this normal being opened by one, over its volume.
-    double work_of_springs(const dealii::Tensor<1, dim> &normal, const double square) const
-    {
-      double result = 0;
-      for (LocalIndex j = 0; j < family.size; ++j)
-        {
-          double reach = 0;
-          for (int d = 0; d < dim; ++d)
-            reach += normal[d] * family.bond[d][j];
-          // k |xi|^4 s^2/2 of each bond, as often as it crosses: both halves of it, over |xi.n|.
-          result += 0.5 * coefficients.stiffness[j] * std::pow(family.length_square[j], 2) * square *
-                    std::abs(reach) / family.node_volume;
-        }
-      return result;
-    }
-
-    FamilyView<dim>    family;
-    FamilyShape        shape;
-    FamilyCoefficients coefficients;
-  };
+    double result = 0;
+    for (LocalIndex j = 0; j < weighed.family.size; ++j)
+      {
+        double reach = 0;
+        for (int d = 0; d < dim; ++d)
+          reach += normal[d] * weighed.family.bond[d][j];
+        // k |xi|^4 s^2/2 of each bond, as often as it crosses: both halves of it, over |xi.n|.
+        result += 0.5 * weighed.coefficients.stiffness[j] * std::pow(weighed.family.length_square[j], 2) *
+                  square * std::abs(reach) / weighed.family.node_volume;
+      }
+    return result;
+  }
 
   template <int dim>
   dealii::Tensor<1, dim> direction(const double x, const double y, const double z)
@@ -78,7 +54,7 @@ namespace
     for (const auto &normal :
          {direction<dim>(0, 1, 0), direction<dim>(1, 2, 3), direction<dim>(-1, 0.3, 0.2)})
       EXPECT_NEAR(
-        separation.energy(normal, squares, by_member) / springs.work_of_springs(normal, 1e-4), 1., 1e-12);
+        separation.energy(normal, squares, by_member) / work_of_springs(springs, normal, 1e-4), 1., 1e-12);
   }
 
   /// Calibrated, planes normal to bonds take the energy, and all others nearly.
@@ -94,10 +70,11 @@ namespace
                  std::to_string(poisson_ratio) + ' ' + influence + ' ' + name_of(softening));
     WeighedFamily<dim> weighed(model, form, horizon_factor, poisson_ratio, influence);
     Separation<dim>    separation(weighed.family, weighed.coefficients, weighed.shape);
+    const auto         normals = directions_of_bonds(weighed.family, 24);
     BondFailing        how;
     how.law                     = SofteningLaw(softening);
     how.first_share             = std::sqrt(1. / 3.);
-    const auto          squares = separation.calibrate(how, 24, 5);
+    const auto          squares = separation.calibrate(how, normals, 5);
     std::vector<double> by_member;
     if (!how.law.softens())
       {
@@ -115,7 +92,7 @@ namespace
       EXPECT_GT(square, 0.);
     // What bonds take grows with the energy wanted, as long as no strength is given.
     how.energy            = 100.;
-    const auto for_energy = separation.calibrate(how, 24, 5);
+    const auto for_energy = separation.calibrate(how, normals, 5);
     for (LocalIndex j = 0; j < weighed.family.size; ++j)
       EXPECT_NEAR(for_energy[j] / squares[j], 1., 1e-9);
   }

@@ -16,8 +16,9 @@ namespace perideal
   {
     /// [J/m^2]; 0: its bonds do not break, or not by this.
     double energy = 0;
-    /// Where bonds begin to soften [-]; 0: each at a share of its critical stretch.
-    double first = 0;
+    /// The strain along a uniaxial stress of the tensile strength, and the one across it over this, as a
+    /// contraction [-]; 0: bonds begin to soften at a share of their critical stretches.
+    double of_strength = 0, lateral = 0;
   };
 
   /// How bonds are calibrated.
@@ -37,6 +38,9 @@ namespace perideal
   {
     /// Squares of the stretches for a unit of fracture energy, by slot [m^2/J]; 0 where a family has no say.
     std::vector<double> near, far;
+    /// Where bonds begin to soften, so that the family bears the tensile strength (BulkStrength), by slot
+    /// [-]; 0 without a strength; empty where bonds break at once.
+    std::vector<double> first_near, first_far;
     /// What planes take of the fracture energy, by direction, on the mean over the families [-].
     EnergyByDirection shares;
   };
