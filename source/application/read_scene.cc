@@ -189,8 +189,9 @@ namespace perideal
                         scene.solver.is_linear_static() ? Use::statics :
                                                           Use::motion);
     if (scene.model.stretch_formula == StretchFormula::automatic)
-      scene.model.stretch_formula =
-        scene.material.softens() ? StretchFormula::bonds : StretchFormula::published;
+      scene.model.stretch_formula = scene.material.softens() || scene.material.has_fracture_energies() ?
+                                      StretchFormula::bonds :
+                                      StretchFormula::published;
     resolve_treatments(scene.loads, scene.model.is_consistent());
     if (const double own = scene.model.form_traits().defaults.horizon_factor; own > 0)
       scene.nodes.horizon_factor = own;

@@ -13,8 +13,9 @@ namespace perideal
     {
       std::vector<std::string> result;
       const auto               check = [&](const MaterialProperties &properties, const std::string &section) {
-        if (scene.model.is_correspondence() && properties.fracture_energy > 0)
-          result.push_back(section + "/Fracture energy");
+        if (scene.model.is_correspondence() && properties.mean_fracture_energy() > 0)
+          result.push_back(section +
+                           (properties.fracture_energy > 0 ? "/Fracture energy" : "/Fracture energies"));
         else if (scene.model.is_correspondence() && properties.critical_stretch > 0)
           result.push_back(section + "/Critical stretch");
       };

@@ -170,6 +170,12 @@ namespace perideal
         "the bonds of this model have no tensors",
         "automatic | ordinary for Material/Model = ..."),
       refuse(
+        "Material/Stretch formula",
+        "Material/Stretch formula other than bonds, with Material/Fracture energies",
+        [](const Scene &s) { return s.material.has_fracture_energies() && !s.model.calibrates_bonds(); },
+        "the stretches of this formula know no direction",
+        "automatic | bonds with Material/Fracture energies"),
+      refuse(
         "Material/Boundary compensation",
         "Material/Model other than bond based",
         [](const Scene &s) { return s.model.compensates() && !s.model.model->has_one_micromodulus; },

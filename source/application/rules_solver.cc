@@ -59,9 +59,9 @@ namespace perideal
 
     bool has_fracture_energy(const MaterialParameters &material)
     {
-      return material.body.fracture_energy > 0 ||
+      return material.body.mean_fracture_energy() > 0 ||
              std::any_of(material.groups.begin(), material.groups.end(), [](const auto &group) {
-               return group.second.fracture_energy > 0;
+               return group.second.mean_fracture_energy() > 0;
              });
     }
 

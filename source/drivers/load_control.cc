@@ -82,7 +82,7 @@ namespace perideal
     const double cell       = volume / body.nodes->n_global;
     double       energy     = 0;
     for (const auto id : body.mesh->material_ids)
-      energy = std::max(energy, body.properties_of(id).fracture_energy);
+      energy = std::max(energy, body.properties_of(id).mean_fracture_energy());
     if (dim == 2)
       return energy * std::sqrt(cell / body.mesh->thickness) * body.mesh->thickness;
     return energy * std::cbrt(cell) * std::cbrt(volume);

@@ -41,11 +41,13 @@ namespace perideal
   }
 
   template <int dim>
-  Separation<dim>::Separation(const FamilyView<dim>    &family,
-                              const FamilyCoefficients &coefficients,
-                              const FamilyShape        &shape)
+  Separation<dim>::Separation(const FamilyView<dim>                 &family,
+                              const FamilyCoefficients              &coefficients,
+                              const FamilyShape                     &shape,
+                              const dealii::SymmetricTensor<2, dim> &by_normal)
     : family(family)
     , shape(shape)
+    , by_normal(by_normal)
     , left(coefficients, shape)
     , place(family.size)
     , reach(family.size)
@@ -135,13 +137,13 @@ namespace perideal
                                    const BondFailing         &how,
                                    std::vector<double>       &by_member)
   {
-    const double at_once = energy(normal, squares, by_member);
-    if (!how.law.softens() || shape.n_sums == 0 || !(at_once > 0))
-      return at_once;
-    const double softened = softened_side(normal, squares, how) + softened_side(-normal, squares, how);
+    const double wanted = (by_normal * normal).norm(), at_once = energy(normal, squares, by_member);
+    double       result = at_once;
+    if (how.law.softens() && shape.n_sums > 0 && at_once > 0)
+      result = softened_side(normal, squares, how) + softened_side(-normal, squares, how);
     for (double &of_member : by_member)
-      of_member *= softened / at_once;
-    return softened;
+      of_member *= at_once > 0 ? result / (at_once * wanted) : 0.;
+    return result / wanted;
   }
 
   template <int dim>
@@ -154,9 +156,18 @@ namespace perideal
     // Share of the mean square of the rows that keeps stretches alike, and what a step may change.
     constexpr double regularisation = 0.01, largest_change = 0.3;
 
-    std::vector<double> squares(family.size, 1.), by_member;
+    std::vector<double> squares(family.size, 0.), by_member;
     if (normals.empty())
-      return std::vector<double>(family.size, 0.);
+      return squares;
+    const dealii::SymmetricTensor<2, dim> inverse = invert(by_normal);
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        Vector bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = family.bond[d][j];
+        // As bonds without number would: |n.xi| summed over the ellipsoid xi = G omega is |G n|.
+        squares[j] = std::pow((inverse * bond).norm() / bond.norm(), -(dim + 1)) / determinant(by_normal);
+      }
     MatrixXd matrix(normals.size(), family.size);
     VectorXd energies(normals.size());
     for (unsigned int step = 0; step <= n_steps; ++step)

@@ -79,11 +79,15 @@ namespace perideal
       numbers);
   }
 
-  void ElasticSymmetry::check() const
+  void ElasticSymmetry::check(const bool has_axes) const
   {
     std::vector<std::string> used = {"Young moduli", "Poisson ratios", "Shear moduli", "Orientation"};
     if (is_isotropic())
-      used = {"Young modulus", "Poisson ratio"};
+      {
+        used = {"Young modulus", "Poisson ratio"};
+        if (has_axes)
+          used.push_back("Orientation");
+      }
     else if (name == SymmetryName::anisotropic)
       {
         used = {"Stiffness", "Orientation"};

@@ -56,26 +56,6 @@ namespace perideal
       return result;
     }
 
-    /// From the material's axes to those of the body.
-    template <int dim>
-    dealii::Tensor<2, 3> rotation(const ElasticSymmetry &symmetry)
-    {
-      const Numbers &angles = symmetry.orientation;
-      if (angles.size() > 1 && (dim == 2 || angles.size() != 3))
-        throw symmetry.complaint("this is no orientation", "Orientation", angles)
-          .allowed(dim == 2 ? "one angle about z [degrees]" :
-                              "one angle about z, or three Euler angles (z, x, z) [degrees]");
-      using dealii::Physics::Transformations::Rotations::rotation_matrix_3d;
-      dealii::Tensor<2, 3> result = dealii::unit_symmetric_tensor<3>();
-      for (std::size_t k = 0; k < angles.size(); ++k)
-        {
-          dealii::Tensor<1, 3> axis;
-          axis[k == 1 ? 0 : 2] = 1.;
-          result               = result * rotation_matrix_3d(axis, angles[k] * dealii::numbers::PI / 180.);
-        }
-      return result;
-    }
-
     /// What ElasticSolid and those who use it divide by.
     /// @throws InputError when it is not positive.
     template <int dim>
@@ -106,6 +86,24 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  dealii::Tensor<2, 3> ElasticSymmetry::rotation() const
+  {
+    if (orientation.size() > 1 && (dim == 2 || orientation.size() != 3))
+      throw complaint("this is no orientation", "Orientation", orientation)
+        .allowed(dim == 2 ? "one angle about z [degrees]" :
+                            "one angle about z, or three Euler angles (z, x, z) [degrees]");
+    using dealii::Physics::Transformations::Rotations::rotation_matrix_3d;
+    dealii::Tensor<2, 3> result = dealii::unit_symmetric_tensor<3>();
+    for (std::size_t k = 0; k < orientation.size(); ++k)
+      {
+        dealii::Tensor<1, 3> axis;
+        axis[k == 1 ? 0 : 2] = 1.;
+        result               = result * rotation_matrix_3d(axis, orientation[k] * dealii::numbers::PI / 180.);
+      }
+    return result;
+  }
+
+  template <int dim>
   ElasticSolid<dim> make_solid(const ElasticSymmetry &symmetry, const PlaneAssumption assumption)
   {
     Assert(!symmetry.is_isotropic(), dealii::ExcMessage("an isotropic solid has no axes"));
@@ -113,10 +111,12 @@ namespace perideal
                                from_stiffness<dim>(symmetry) :
                                engineering_stiffness(symmetry, assumption);
     const auto turned =
-      dealii::Physics::Transformations::basis_transformation(in_own_axes, rotation<dim>(symmetry));
+      dealii::Physics::Transformations::basis_transformation(in_own_axes, symmetry.rotation<dim>());
     check_stiffness<dim>(symmetry, turned, assumption);
     return {turned, assumption};
   }
 
+  template dealii::Tensor<2, 3> ElasticSymmetry::rotation<2>() const;
+  template dealii::Tensor<2, 3> ElasticSymmetry::rotation<3>() const;
   PERIDEAL_INSTANTIATE(make_solid)
 } // namespace perideal

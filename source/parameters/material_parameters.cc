@@ -4,6 +4,9 @@
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace perideal
 {
   namespace
@@ -37,6 +40,16 @@ namespace perideal
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "
               "each bond breaks at the critical stretch that makes it so");
+      declare_inherited(
+        prm,
+        file,
+        section,
+        "Fracture energies",
+        properties.fracture_energies,
+        "Fracture energies > 0 [J/m^2] by direction instead: of cracks normal to the material's "
+        "axes 1, 2 (3-D: 3), which Orientation turns. A crack of the normal n takes the root "
+        "of the sum of (G_a n_a)^2",
+        dealii::Patterns::List(Double(), 0, 3, ","));
       declare("Critical stretch",
               properties.critical_stretch,
               "Stretch at which bonds break >= 0 [-]; 0: from the fracture energy");
@@ -50,12 +63,34 @@ namespace perideal
         "Strength in uniaxial compression f_c >= f_t [Pa], of a Failure criterion that has both strengths");
     }
 
+    void
+    check_fracture_energies(const MaterialProperties &properties, const std::string &section, const int dim)
+    {
+      const std::vector<double> &energies = properties.fracture_energies;
+      if (energies.empty())
+        return;
+      InputErrorCollector errors;
+      if (energies.size() != static_cast<std::size_t>(dim) ||
+          !std::all_of(energies.begin(), energies.end(), [](const double energy) { return energy > 0; }))
+        errors.add(InputError("a fracture energy for each of the material's axes is needed")
+                     .parameter(section + "/Fracture energies")
+                     .allowed(std::to_string(dim) + " numbers > 0 [J/m^2]"));
+      if (properties.fracture_energy > 0 || properties.critical_stretch > 0)
+        errors.add(
+          InputError("fracture energies by direction, and one for all are both given")
+            .parameter(section + (properties.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
+            .hint("remove it, or Fracture energies"));
+      errors.raise();
+    }
+
     void check_properties(const MaterialProperties &properties,
                           const std::string        &section,
-                          const PlaneAssumption     assumption)
+                          const PlaneAssumption     assumption,
+                          const int                 dim)
     {
       InputErrorCollector errors;
-      errors.collect([&] { properties.symmetry.check(); });
+      errors.collect([&] { properties.symmetry.check(!properties.fracture_energies.empty()); });
+      errors.collect([&] { check_fracture_energies(properties, section, dim); });
       const bool is_isotropic = properties.symmetry.is_isotropic();
       if (is_isotropic && !(properties.young_modulus > 0))
         errors.add(InputError("Young's modulus must be positive")
@@ -95,6 +130,40 @@ namespace perideal
     }
   } // namespace
 
+  double MaterialProperties::mean_fracture_energy() const
+  {
+    const auto &each = fracture_energies;
+    return each.empty() ? fracture_energy : std::accumulate(each.begin(), each.end(), 0.) / each.size();
+  }
+
+  template <int dim>
+  dealii::SymmetricTensor<2, dim> MaterialProperties::fracture_energy_by_normal() const
+  {
+    dealii::SymmetricTensor<2, dim> result = fracture_energy * dealii::unit_symmetric_tensor<dim>();
+    if (fracture_energies.empty())
+      return result;
+    const dealii::Tensor<2, 3> rotation = symmetry.rotation<dim>();
+    for (int a = 0; a < dim; ++a)
+      for (int b = a; b < dim; ++b)
+        {
+          result[a][b] = 0.;
+          for (int axis = 0; axis < dim; ++axis)
+            result[a][b] += rotation[a][axis] * fracture_energies[axis] * rotation[b][axis];
+        }
+    return result;
+  }
+
+  template dealii::SymmetricTensor<2, 2> MaterialProperties::fracture_energy_by_normal() const;
+  template dealii::SymmetricTensor<2, 3> MaterialProperties::fracture_energy_by_normal() const;
+
+  bool MaterialParameters::has_fracture_energies() const
+  {
+    return !body.fracture_energies.empty() ||
+           std::any_of(groups.begin(), groups.end(), [](const auto &group) {
+             return !group.second.fracture_energies.empty();
+           });
+  }
+
   void MaterialParameters::declare(dealii::ParameterHandler &prm, const ParameterFile &file)
   {
     prm.enter_subsection("Material");
@@ -128,7 +197,7 @@ namespace perideal
   {
     InputErrorCollector errors;
     const auto          check = [&](const MaterialProperties &material, const std::string &section) {
-      errors.collect([&] { check_properties(material, section, assumption); });
+      errors.collect([&] { check_properties(material, section, assumption, dim); });
       errors.collect([&] { check_strengths(material, section); });
       errors.collect([&] {
         if (dim == 2)
@@ -161,11 +230,12 @@ namespace perideal
         InputError("a strength is given, and nothing breaks by stress")
           .parameter(section + (has_tensile_strength ? "/Tensile strength" : "/Compressive strength"))
           .hint("set Material/Failure criterion, or Softening, or remove it"));
-    if (has_criterion() && (material.fracture_energy > 0 || material.critical_stretch > 0))
-      errors.add(
-        InputError("bonds break either by stress or by stretch")
-          .parameter(section + (material.fracture_energy > 0 ? "/Fracture energy" : "/Critical stretch"))
-          .allowed("0 for Failure criterion = " + name_of(failure_criterion)));
+    if (has_criterion() && (material.mean_fracture_energy() > 0 || material.critical_stretch > 0))
+      errors.add(InputError("bonds break either by stress or by stretch")
+                   .parameter(section + (material.fracture_energy > 0  ? "/Fracture energy" :
+                                         material.critical_stretch > 0 ? "/Critical stretch" :
+                                                                         "/Fracture energies"))
+                   .allowed("0 for Failure criterion = " + name_of(failure_criterion)));
     // Weaker in compression, sin(phi) = (f_c - f_t)/(f_c + f_t) would be negative.
     if (failure_criterion->has_compressive_strength && material.tensile_strength > 0 &&
         !(material.compressive_strength >= material.tensile_strength))

@@ -55,10 +55,18 @@ namespace perideal
       {
         if (!body.parameters.model.calibrates_bonds())
           return;
-        Calibration how;
+        Calibration<dim> how;
         how.fracture_of = [this](const auto id) {
-          const auto [strain, lateral] = strain_of_strength(id);
-          return BondFracture{this->body.properties_of(id).fracture_energy, strain, lateral};
+          const auto [strain, lateral]       = strain_of_strength(id);
+          const MaterialProperties &material = this->body.properties_of(id);
+          const double              energy   = material.mean_fracture_energy();
+          BondFracture<dim>         result;
+          result.energy = energy;
+          if (energy > 0)
+            result.by_normal = material.fracture_energy_by_normal<dim>() / energy;
+          result.of_strength = strain;
+          result.lateral     = lateral;
+          return result;
         };
         how.law         = SofteningLaw(body.parameters.material.softening);
         how.first_share = first_share;
@@ -118,7 +126,7 @@ namespace perideal
       double square(const dealii::types::material_id id, const double of_unit_energy) const
       {
         const double stretch = Failure<dim>::critical_stretch(body, id, 0.),
-                     energy  = body.properties_of(id).fracture_energy;
+                     energy  = body.properties_of(id).mean_fracture_energy();
         return std::isfinite(stretch)      ? stretch * stretch :
                energy * of_unit_energy > 0 ? energy * of_unit_energy :
                                              std::numeric_limits<double>::infinity();
@@ -180,9 +188,9 @@ namespace perideal
     const MaterialProperties &material = body.properties_of(id);
     if (material.critical_stretch > 0)
       return material.critical_stretch;
-    if (material.fracture_energy > 0 && !body.parameters.model.calibrates_bonds())
+    if (material.mean_fracture_energy() > 0 && !body.parameters.model.calibrates_bonds())
       return body.parameters.model.critical_stretch(
-        body.solids.at(id).isotropic(), material.fracture_energy, horizon);
+        body.solids.at(id).isotropic(), material.mean_fracture_energy(), horizon);
     return std::numeric_limits<double>::infinity();
   }
 

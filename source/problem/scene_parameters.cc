@@ -154,7 +154,7 @@ namespace perideal
   bool can_break(const SceneParameters &parameters)
   {
     const auto breaks = [](const MaterialProperties &m) {
-      return m.fracture_energy > 0 || m.critical_stretch > 0 || m.tensile_strength > 0;
+      return m.mean_fracture_energy() > 0 || m.critical_stretch > 0 || m.tensile_strength > 0;
     };
     return (parameters.solver.is_dynamic() || parameters.solver.is_nonlinear_static()) &&
            (breaks(parameters.material.body) ||

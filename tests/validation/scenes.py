@@ -62,18 +62,22 @@ class Runner:
         (folder / "processor_time").write_text(f"{seconds}\n", encoding="utf-8")
         return finished(folder, command)
 
-    def mesh(self, geometry, name, variable, value):
-        """The mesh that Gmsh makes of a .geo file with a value of one of its constants."""
+    def mesh(self, geometry, name, **constants):
+        """The mesh that Gmsh makes of a .geo file with values of some of its constants."""
         self.output.mkdir(parents=True, exist_ok=True)
         mesh = self.output / f"{name}.msh"
-        subprocess.run(["gmsh", "-2", "-setnumber", variable, str(value), "-o", str(mesh), str(HERE / geometry)], check=True,
-                       stdout=subprocess.DEVNULL)
+        given = [word for constant, value in constants.items() for word in ("-setnumber", constant, str(value))]
+        subprocess.run(["gmsh", "-2", *given, "-o", str(mesh), str(HERE / geometry)], check=True, stdout=subprocess.DEVNULL)
         return mesh
 
     def plot(self, script, run, *arguments):
         """Draws a picture into the folder of a run, where gnuplot is there."""
+        self.draw(ROOT / "prm/examples" / script, run.folder, *arguments)
+
+    def draw(self, script, folder, *arguments):
+        """Lets a script draw into a folder, where gnuplot is there."""
         if shutil.which("gnuplot"):
-            subprocess.run([str(ROOT / "prm/examples" / script), str(run.folder), *arguments], check=False)
+            subprocess.run([str(script), str(folder), *arguments], check=False)
 
 
 def finished(folder, command):

@@ -21,7 +21,8 @@ namespace perideal
   struct BondFailing
   {
     SofteningLaw law = SofteningLaw("none");
-    /// What a unit of area is to take [J/m^2]; of laws without softening all are in proportion.
+    /// What a unit of area is to take, on the mean over all directions [J/m^2]; of laws without softening all
+    /// are in proportion.
     double energy = 1.;
     /// Where bonds begin to soften [-]; 0: each at a share of its critical stretch.
     double first = 0., first_share = 1.;
@@ -64,10 +65,14 @@ namespace perideal
   public:
     using Vector = dealii::Tensor<1, dim>;
 
-    /// The arguments must outlive this object; coefficients of models with tensors are tensors.
-    Separation(const FamilyView<dim>    &family,
-               const FamilyCoefficients &coefficients,
-               const FamilyShape        &shape);
+    /// Family and coefficients must outlive this object; coefficients of models with tensors are tensors.
+    /// @param by_normal G of the energy |G n| that planes of the normal n are to take, over the mean of its
+    /// eigenvalues [-]. Bonds of all directions can do so whatever G is: |G n| is the mean of |n.xi| over the
+    /// surface of an ellipsoid.
+    Separation(const FamilyView<dim>                 &family,
+               const FamilyCoefficients              &coefficients,
+               const FamilyShape                     &shape,
+               const dealii::SymmetricTensor<2, dim> &by_normal = dealii::unit_symmetric_tensor<dim>());
 
     /// Returns D(n) [J/m^2].
     /// @param squares of the critical stretches, by member
@@ -88,13 +93,13 @@ namespace perideal
     std::vector<double>
     calibrate(const BondFailing &how, const std::vector<Vector> &normals, const unsigned int n_steps);
 
-    /// What planes of all directions take of the energy, with these squares for it.
+    /// What planes of all directions take of their energy, with these squares for it.
     EnergyByDirection by_direction(const std::vector<double> &squares, const BondFailing &how);
 
   private:
     /// Finds the members across a plane that the family lies below, the farthest first.
     void find_across(const Vector &normal);
-    /// D over the energy wanted, as bonds fail.
+    /// D over the energy wanted of this plane, as bonds fail.
     double share_of(const Vector              &normal,
                     const std::vector<double> &squares,
                     const BondFailing         &how,
@@ -103,9 +108,10 @@ namespace perideal
     double softened_side(const Vector &normal, const std::vector<double> &squares, const BondFailing &how);
     /// Falls of the energy of planes of which the family lies on one side.
     void add_side(const Vector &normal, const std::vector<double> &squares, std::vector<double> &by_member);
-    const FamilyView<dim> &family;
-    const FamilyShape      shape;
-    FamilyEnergy<dim>      left;
+    const FamilyView<dim>                &family;
+    const FamilyShape                     shape;
+    const dealii::SymmetricTensor<2, dim> by_normal;
+    FamilyEnergy<dim>                     left;
     /// Work space: members across, the farthest first, and in the order in which they break; by member, p,
     /// the place in the first of these lists, and the square of the opening of the break.
     std::vector<LocalIndex> across, order, place;

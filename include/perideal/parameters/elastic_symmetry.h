@@ -56,8 +56,14 @@ namespace perideal
     /// Declares the parameters in the section that is open, @p section of the file.
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file, const std::string &section);
 
+    /// @param has_axes whether something but the stiffness has the material's axes
     /// @throws InputError when the section gives a parameter that its symmetry has no use for.
-    void check() const;
+    void check(const bool has_axes = false) const;
+
+    /// Returns the rotation from the material's axes to those of the body.
+    /// @throws InputError when the orientation has another number of angles than @p dim allows.
+    template <int dim>
+    dealii::Tensor<2, 3> rotation() const;
 
     /// An error about a list of constants, which it names with its values.
     InputError complaint(const std::string         &problem,

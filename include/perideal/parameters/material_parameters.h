@@ -27,13 +27,23 @@ namespace perideal
     double poisson_ratio = 0.33;
     /// Mass density [kg/m^3].
     double density = 2700.;
-    /// Fracture energy [J/m^2]; 0: the material does not break.
+    /// Fracture energy [J/m^2] of cracks in all directions; 0: the material does not break, or as the next
+    /// says.
     double fracture_energy = 0.;
+    /// Those of cracks normal to the material's axes 1, 2 (, 3) [J/m^2]; none: one for all.
+    std::vector<double> fracture_energies;
     /// Stretch at which bonds break [-]; 0: from the fracture energy.
     double critical_stretch = 0.;
     /// Strengths in uniaxial tension and compression [Pa]. No tensile strength: the material does not break
     /// by stress, and softening bonds begin where they follow the mesh least.
     double tensile_strength = 0., compressive_strength = 0.;
+
+    /// Returns the fracture energy, the mean of those of the axes [J/m^2].
+    double mean_fracture_energy() const;
+
+    /// Returns G of the fracture energy |G n| of cracks of a normal n [J/m^2], in the body's axes.
+    template <int dim>
+    dealii::SymmetricTensor<2, dim> fracture_energy_by_normal() const;
   };
 
   /**
@@ -65,6 +75,9 @@ namespace perideal
 
     /// Whether bonds break by stress.
     bool has_criterion() const { return failure_criterion->utilisation != nullptr; }
+
+    /// Whether a material has fracture energies by direction.
+    bool has_fracture_energies() const;
 
     /// Whether bonds that break by stretch soften first.
     bool softens() const { return !softening->curve.empty(); }

@@ -25,17 +25,17 @@ namespace perideal
     };
 
     template <int dim>
-    Calibrated calibrate(const FamilyView<dim> &family,
-                         LinearModel<dim>      &model,
-                         const Calibration     &how,
-                         const BondFracture    &fracture,
-                         const bool             is_one_of_many)
+    Calibrated calibrate(const FamilyView<dim>   &family,
+                         LinearModel<dim>        &model,
+                         const Calibration<dim>  &how,
+                         const BondFracture<dim> &fracture,
+                         const bool               is_one_of_many)
     {
       FamilyCoefficients coefficients;
       const FamilyShape  shape = model.shape();
       coefficients.resize(family.size, shape);
       model.compute(family, coefficients);
-      Separation<dim>    separation(family, coefficients, shape);
+      Separation<dim>    separation(family, coefficients, shape, fracture.by_normal);
       Calibrated         result;
       const bool         only_scale = is_one_of_many && family.size > large_family;
       BondFailing        failing{how.law, fracture.energy, fracture.of_strength, how.first_share};
@@ -56,11 +56,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  CalibratedStretches calibrate_stretches(const Families<dim> &families,
-                                          const BondList      &bonds,
-                                          LinearModel<dim>    &model,
-                                          const SolidOf<dim>  &solid_of,
-                                          const Calibration   &how)
+  CalibratedStretches calibrate_stretches(const Families<dim>    &families,
+                                          const BondList         &bonds,
+                                          LinearModel<dim>       &model,
+                                          const SolidOf<dim>     &solid_of,
+                                          const Calibration<dim> &how)
   {
     const bool          many_equal = !model.depends_on_node() && EqualFamilies<dim>::are_many(families);
     EqualFamilies<dim>  equal(families);
@@ -82,7 +82,7 @@ namespace perideal
       {
         // The cursor goes from family to family.
         cursor.find(i, families.begin(i), families.end(i), ends);
-        const BondFracture fracture = how.fracture_of(families.material[i]);
+        const BondFracture<dim> fracture = how.fracture_of(families.material[i]);
         if (!(fracture.energy > 0))
           continue;
         family.reinit(families, i);

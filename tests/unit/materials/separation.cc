@@ -121,6 +121,38 @@ TEST(Separation, CalibratedBondsTakeTheFractureEnergy)
   expect_calibrated<3>("extended ordinary", "energy", 3.01, 0.3, "constant", "none");
 }
 
+/// Planes normal to the axes take 0.4 and 1.6 of the mean; those between the root of the sum of squares; near
+/// the weak axis, where no bond is, a sixth more.
+TEST(Separation, TakesTheEnergyOfTheDirection)
+{
+  dealii::SymmetricTensor<2, 2> by_normal;
+  by_normal[0][0] = 0.4;
+  by_normal[1][1] = 1.6;
+  for (const auto &model : {std::make_pair("ordinary", ""), std::make_pair("extended ordinary", "energy")})
+    for (const char *softening : {"none", "linear"})
+      {
+        SCOPED_TRACE(std::string(model.first) + ' ' + softening);
+        WeighedFamily<2> weighed(model.first, model.second, 3.01);
+        Separation<2>    separation(weighed.family, weighed.coefficients, weighed.shape, by_normal);
+        Separation<2>    plain(weighed.family, weighed.coefficients, weighed.shape);
+        BondFailing      how;
+        how.law            = SofteningLaw(softening);
+        how.first_share    = std::sqrt(0.5);
+        const auto squares = separation.calibrate(how, directions_of_bonds(weighed.family, 24), 5);
+        const auto shares  = separation.by_direction(squares, how);
+        EXPECT_NEAR(shares.mean, 1., 0.05);
+        EXPECT_GT(shares.smallest, 0.95);
+        EXPECT_LT(shares.largest, 1.2);
+        if (how.law.softens())
+          continue;
+        std::vector<double> by_member;
+        EXPECT_NEAR(plain.energy(direction<2>(1, 0, 0), squares, by_member), 0.4, 0.02);
+        EXPECT_NEAR(plain.energy(direction<2>(0, 1, 0), squares, by_member), 1.6, 0.04);
+        EXPECT_NEAR(
+          plain.energy(direction<2>(1, 1, 0), squares, by_member), std::sqrt(0.5 * (0.16 + 2.56)), 0.03);
+      }
+}
+
 TEST(Separation, PublishedStretchesDoNotTakeIt)
 {
   // A constant influence function takes a tenth more, by the weights of round families also.

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Beam of 50 mm in depth in equal squares, about x = 0 (Gregoire, Rojas-Solano and Pijaudier-Cabot 2013, the smallest
-// size). "left" and "right" are one square each whose middle is 62.5 mm from that of the beam, "load" the two squares in
-// the middle of the upper edge; the ends are half a square longer than 25 mm behind the supports.
-DefineConstant[ Rows = 18 ]; // squares over the depth; two more than a multiple of four
-h   = 0.05 / Rows;
-x[] = {-Ceil(0.0875 / h) * h, -0.0625 - h / 2, -0.0625 + h / 2, -h, h, 0.0625 - h / 2, 0.0625 + h / 2, Ceil(0.0875 / h) * h};
+// Beam in equal squares, about x = 0 (Gregoire, Rojas-Solano and Pijaudier-Cabot 2013). "left" and "right" are one square
+// each whose middle is 1.25 depths from that of the beam, "load" the two squares in the middle of the upper edge; the ends
+// are up to a square longer than 25 mm behind the supports.
+DefineConstant[ Depth = 0.05 ]; // 0.05, 0.1, 0.2, 0.4
+DefineConstant[ Rows = 18 ];   // squares over the depth; two more than a multiple of four
+h   = Depth / Rows;
+a   = 1.25 * Depth;
+x[] = {-Ceil((a + 0.025) / h) * h, -a - h / 2, -a + h / 2, -h, h, a - h / 2, a + h / 2, Ceil((a + 0.025) / h) * h};
 For i In {0 : 7}
   Point(1 + i)  = {x[i], 0, 0};
-  Point(11 + i) = {x[i], 0.05, 0};
+  Point(11 + i) = {x[i], Depth, 0};
   Line(31 + i)  = {1 + i, 11 + i};
 EndFor
 Transfinite Curve {31 : 38} = Rows + 1;

@@ -12,20 +12,24 @@
 namespace perideal
 {
   /// What of a material decides at which stretches its bonds fail.
+  template <int dim>
   struct BondFracture
   {
-    /// [J/m^2]; 0: its bonds do not break, or not by this.
+    /// On the mean over all directions [J/m^2]; 0: its bonds do not break, or not by this.
     double energy = 0;
+    /// G of the energy |G n| of planes of the normal n, over the mean [-].
+    dealii::SymmetricTensor<2, dim> by_normal = dealii::unit_symmetric_tensor<dim>();
     /// The strain along a uniaxial stress of the tensile strength, and the one across it over this, as a
     /// contraction [-]; 0: bonds begin to soften at a share of their critical stretches.
     double of_strength = 0, lateral = 0;
   };
 
   /// How bonds are calibrated.
+  template <int dim>
   struct Calibration
   {
-    std::function<BondFracture(const dealii::types::material_id)> fracture_of;
-    SofteningLaw                                                  law;
+    std::function<BondFracture<dim>(const dealii::types::material_id)> fracture_of;
+    SofteningLaw                                                       law;
     /// Share of the critical stretch at which bonds begin to soften whose material does not say it.
     double first_share = 1.;
     /// Whether the energies by direction are looked at, too.
@@ -36,7 +40,8 @@ namespace perideal
   /// (Separation): what the families of either end make of them. Bonds that soften have them for s_d.
   struct CalibratedStretches
   {
-    /// Squares of the stretches for a unit of fracture energy, by slot [m^2/J]; 0 where a family has no say.
+    /// Squares of the stretches for a unit of the mean fracture energy, by slot [m^2/J]; 0 where a family has
+    /// no say.
     std::vector<double> near, far;
     /// Where bonds begin to soften, so that the family bears the tensile strength (BulkStrength), by slot
     /// [-]; 0 without a strength; empty where bonds break at once.
@@ -47,11 +52,11 @@ namespace perideal
 
   /// Calibrates the bonds of all families of materials that break, as if no bond was cut. Collective.
   template <int dim>
-  CalibratedStretches calibrate_stretches(const Families<dim> &families,
-                                          const BondList      &bonds,
-                                          LinearModel<dim>    &model,
-                                          const SolidOf<dim>  &solid_of,
-                                          const Calibration   &how);
+  CalibratedStretches calibrate_stretches(const Families<dim>    &families,
+                                          const BondList         &bonds,
+                                          LinearModel<dim>       &model,
+                                          const SolidOf<dim>     &solid_of,
+                                          const Calibration<dim> &how);
 } // namespace perideal
 
 #endif
