@@ -37,6 +37,10 @@ SPECIMENS = {
             "others still gain force: where bonds soften slowly (a horizon much shorter than E G_f/f_t^2) the bulk bears up to "
             "half as much again, the more the shorter the horizon. At gripped ends families lack bonds; without a correction of "
             "surfaces (ordinary, springs) they are softer there, stretch more, and give way first."),
+    "brazilian_disc": (concrete.brazilian_disc,
+                       "the bulk bears more than f_t, the more the shorter the horizon (see the bar), and so does the disc, which "
+                       "is less than half as large as E G_f/f_t^2 = 348 mm, by the theory of cohesive cracks: by up to 25 % "
+                       "(Rocco et al.), less under strips as wide as these. The two are not told apart."),
     "three_point_bending": (concrete.three_point_bending,
                             "the bulk bears more than f_t, the more the finer the mesh (see the bar). With f_t divided by 1.4, as "
                             "the bulk exceeds it, the coarsest bears 1,258 N at 38 um and 848 N at 100 um: about half of what "

@@ -62,12 +62,12 @@ class Runner:
         (folder / "processor_time").write_text(f"{seconds}\n", encoding="utf-8")
         return finished(folder, command)
 
-    def mesh(self, geometry, name, variable, value):
-        """The mesh that Gmsh makes of a .geo file with a value of one of its constants."""
+    def mesh(self, geometry, name, **constants):
+        """The mesh that Gmsh makes of a .geo file with values of its constants."""
         self.output.mkdir(parents=True, exist_ok=True)
         mesh = self.output / f"{name}.msh"
-        subprocess.run(["gmsh", "-2", "-setnumber", variable, str(value), "-o", str(mesh), str(HERE / geometry)], check=True,
-                       stdout=subprocess.DEVNULL)
+        values = [word for constant, value in constants.items() for word in ("-setnumber", constant, str(value))]
+        subprocess.run(["gmsh", "-2", *values, "-o", str(mesh), str(HERE / geometry)], check=True, stdout=subprocess.DEVNULL)
         return mesh
 
     def plot(self, script, run, *arguments):
