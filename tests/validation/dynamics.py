@@ -54,3 +54,29 @@ def branching(runner, long):
         rows.append(Row("branching", source, f"{model}, 0.5 and 0.25 mm", "places of the branches apart by", "<= 3 mm",
                         "no branches on one or both" if apart[0] is None else f"{apart[0]:.1f} mm", judged(apart, 0, 3)))
     return rows
+
+
+def kalthoff(runner, long):
+    """The plate of Kalthoff and Winkler, with bonds that break at once, by the published stretch, and that soften."""
+    source, rows = "Kalthoff and Winkler 1987", []
+    for model in ("energy form", "ordinary", "springs"):
+        for softening in ("none", "linear"):
+            for refinements in (1, *([2] if long else [])):
+                run = runner.run("../../prm/examples/kalthoff_winkler.prm", f"kalthoff/{model} {softening} {refinements}",
+                                 [*MODELS[model], f"Material/Softening={softening}", f"Mesh/Refinements={refinements}",
+                                  f"Solver/Time step={160e-9 / 2**refinements}"])
+                mesh = f"{model}, {'brittle bonds' if softening == 'none' else 'softening'}, {2.5 / 2**refinements:g} mm"
+                lower, upper, rear = (run.summary["cracks"][name] for name in ("lower", "upper", "rear"))
+                angles = [lower["angle"], upper["angle"]]
+                arrivals = ", ".join(f"{1e6 * time:.1f}" for time in lower["arrivals"] if time is not None)
+                drift = run.summary["energy"]["drift"]
+                for figure, asked, told, within in (
+                        ("angle of the cracks [degrees]", "66-70", ", ".join(f"{angle:.1f}" for angle in angles),
+                         judged(angles, 66, 70)),
+                        ("damage from [us] on; tip at 20, 40 mm [us]; speed [m/s]", "",
+                         f"{1e6 * lower['first_time']:.1f}; {arrivals}; {lower['speed']:.0f}", "-"),
+                        ("damage at the rear from [us] on", "",
+                         f"{1e6 * rear['first_time']:.1f}" if rear["first_time"] is not None else "none", "-"),
+                        ("error of the energy over the work", "<= 1e-3", f"{drift:.1e}", judged([abs(drift)], 0, 1e-3))):
+                    rows.append(Row("Kalthoff and Winkler", source, mesh, figure, asked, told, within))
+    return rows
