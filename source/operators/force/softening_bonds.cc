@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace perideal
 {
@@ -20,7 +21,8 @@ namespace perideal
       {
         const double square  = static_cast<double>(limits[slot]) * limits[slot];
         brittle_square[slot] = static_cast<float>(square);
-        if (law.is_stable(first[slot], square))
+        // Bonds that never break do not soften either.
+        if (square <= std::numeric_limits<float>::max() && law.is_stable(first[slot], square))
           this->first[slot] = limits[slot] = first[slot];
       }
   }

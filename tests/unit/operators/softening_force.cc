@@ -7,6 +7,7 @@
 #include "testing.h"
 
 #include <cmath>
+#include <limits>
 
 using namespace perideal;
 
@@ -93,6 +94,27 @@ namespace
     EXPECT_EQ(softening.bonds->n_broken_now(), 0u);
     EXPECT_NEAR(softening.bonds->released_energy(velocity, dt), 0., 1e-5 * std::abs(lost));
   }
+
+  /// Bonds that never break, as those of zones without failure, carry all of their force however far they
+  /// open.
+  template <int dim>
+  void expect_whole_without_limit(const Mesh<dim> &mesh, const std::pair<std::string, std::string> &variant)
+  {
+    SofteningBody<dim> whole(mesh, variant), endless(mesh, variant);
+    const double       own_spacing = whole.body.nodes.size() > 0 ? whole.body.nodes.spacing[0] : 0.;
+    const NodalVector  motion =
+      whole.scattered(0.05 * dealii::Utilities::MPI::max(own_spacing, MPI_COMM_WORLD), 4);
+    endless.bonds->set_critical_stretch(
+      [](const LocalIndex, const LocalIndex) { return std::numeric_limits<double>::infinity(); },
+      SofteningLaw("linear"),
+      [](const LocalIndex, const LocalIndex) { return 1e-4; });
+    endless.bonds->judge_bonds(true);
+    whole.bonds->compute(whole.force, motion);
+    endless.bonds->compute(endless.force, motion);
+    endless.force -= whole.force;
+    EXPECT_LE(endless.force.linfty_norm(), 1e-14 * whole.force.linfty_norm());
+    EXPECT_FALSE(endless.bonds->softening_bonds().any_now(MPI_COMM_WORLD));
+  }
 } // namespace
 
 TEST(SofteningForce, SoftensAsFarAsItIsJudged)
@@ -104,5 +126,15 @@ TEST(SofteningForce, SoftensAsFarAsItIsJudged)
         expect_softening_as_judged<2>(*mesh, variant);
       for (const auto &mesh : test::make_boxes<3>())
         expect_softening_as_judged<3>(*mesh, variant);
+    }
+}
+
+TEST(SofteningForce, LeavesBondsThatNeverBreak)
+{
+  for (const auto &variant : test::bond_models)
+    {
+      SCOPED_TRACE(variant.first + ", " + variant.second);
+      for (const auto &mesh : test::make_boxes<2>())
+        expect_whole_without_limit<2>(*mesh, variant);
     }
 }
