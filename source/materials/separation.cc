@@ -168,6 +168,16 @@ namespace perideal
         // As bonds without number would: |n.xi| summed over the ellipsoid xi = G omega is |G n|.
         squares[j] = std::pow((inverse * bond).norm() / bond.norm(), -(dim + 1)) / determinant(by_normal);
       }
+    if (how.first > 0)
+      {
+        // Where bonds soften from a given stretch on, their share depends on how large the others are.
+        double mean = 0;
+        for (const Vector &normal : normals)
+          mean += energy(normal, squares, by_member) / ((by_normal * normal).norm() * normals.size());
+        if (mean > 0)
+          for (double &square : squares)
+            square /= mean;
+      }
     MatrixXd matrix(normals.size(), family.size);
     VectorXd energies(normals.size());
     for (unsigned int step = 0; step <= n_steps; ++step)

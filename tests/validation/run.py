@@ -60,9 +60,10 @@ SPECIMENS = {
             "springs) twice so; the bar gives way first at its grips. Collars that move with the strain of the bar show the strength "
             "of its inside. Springs gain as cells become smaller: the mean over the directions of their bonds is met, not each."),
     "brazilian_disc": (concrete.brazilian_disc,
-                       "the bulk bears more than f_t, the more the shorter the horizon (see the bar), and so does the disc, which "
-                       "is less than half as large as E G_f/f_t^2 = 348 mm, by the theory of cohesive cracks: by up to 25 % "
-                       "(Rocco et al.), less under strips as wide as these. The two are not told apart."),
+                       "bonds soften by stretch: pressed across with three times the pull, as in the middle of the disc, they are "
+                       "1 + 3 nu times longer than in a bar, and give way earlier; against that the disc, less than half as large "
+                       "as E G_f/f_t^2 = 348 mm, bears up to 25 % more than its strength by the theory of cohesive cracks (Rocco "
+                       "et al.). The two are not told apart."),
     "three_point_bending": (beams.three_point_bending,
                             "the constants published with the experiment do not make its curve: a cohesive crack in finite elements "
                             "with E 37 GPa, f_t 3.9 MPa and G_f 143 J/m^2 (three_point_bending/cohesive_crack.py) bears 1,247 N at "
