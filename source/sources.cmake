@@ -185,6 +185,7 @@ set(perideal_sources
   operators/force/consistent_force.cc
   operators/force/correspondence_force.cc
   operators/force/family_force.cc
+  operators/force/fracture_zone.cc
   operators/force/family_force_energy.cc
   operators/force/family_force_failure.cc
   operators/force/family_force_loops.cc
@@ -193,6 +194,7 @@ set(perideal_sources
   operators/force/rest_regions.cc
   operators/force/softening_bonds.cc
   operators/force/tensor_force.cc
+  operators/force/zoned_force.cc
 
   operators/linear/bond_operator.cc
   operators/linear/bond_blocks.cc
@@ -211,6 +213,7 @@ set(perideal_sources
   operators/linear/tangent_operator.cc
   operators/linear/taylor_extension.cc
   operators/linear/tensor_operator.cc
+  operators/linear/zoned_tangent.cc
 
   operators/system/assembled_matrix.cc
   operators/system/auxiliary_space.cc
@@ -298,6 +301,7 @@ set(perideal_sources
   drivers/load_control.cc
   drivers/motion_check.cc
   drivers/motion_forces.cc
+  drivers/motion_steps.cc
   drivers/preconditioning.cc
   drivers/static_driver.cc
 

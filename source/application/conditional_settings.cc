@@ -80,10 +80,8 @@ namespace perideal
          "Solver/Name = quasi static | dynamic relaxation | dynamics",
          [](const Scene &s) { return !s.solver.is_linear_static(); }},
         {{"Cracks/Energy release rates"},
-         "Dimension = 2, Solver/Name = quasi static | dynamic relaxation",
-         [](const Scene &s) {
-           return s.dimension == 2 && !s.solver.is_dynamic() && !s.solver.is_linear_static();
-         }},
+         "Dimension = 2, Solver/Name = static | quasi static | dynamic relaxation",
+         [](const Scene &s) { return s.dimension == 2 && !s.solver.is_dynamic(); }},
         {{"Material/Assumption", "Mesh/Thickness"},
          "Dimension = 2",
          [](const Scene &s) { return s.dimension == 2; }},

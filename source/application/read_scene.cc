@@ -182,10 +182,9 @@ namespace perideal
 
   void resolve(SceneParameters &scene)
   {
-    using Use         = ModelParameters::Use;
-    const bool breaks = scene.material.has_criterion() || !scene.precracks.cracks.empty();
+    using Use = ModelParameters::Use;
     scene.model.resolve(scene.dimension,
-                        breaks                          ? Use::failure :
+                        can_break(scene)                ? Use::failure :
                         scene.solver.is_linear_static() ? Use::statics :
                                                           Use::motion);
     if (scene.model.stretch_formula == StretchFormula::automatic)
@@ -193,7 +192,8 @@ namespace perideal
                                       StretchFormula::bonds :
                                       StretchFormula::published;
     resolve_treatments(scene.loads, scene.model.is_consistent());
-    if (const double own = scene.model.form_traits().defaults.horizon_factor; own > 0)
+    if (const double own = scene.model.form_traits().defaults.horizon_factor;
+        own > 0 && !has_fracture_zone(scene))
       scene.nodes.horizon_factor = own;
     // The consistent form leaves the choice to the mesh.
     if (scene.nodes.horizon_shape == HorizonShape::automatic && !scene.model.is_consistent())

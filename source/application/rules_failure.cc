@@ -37,6 +37,14 @@ namespace perideal
       return result;
     }
 
+    /// The same of forms that know no cracks in linear statics.
+    template <typename Named>
+    std::vector<std::string>
+    in_statics_of_bonds(const Scene &scene, const std::string &section, const std::vector<Named> &named)
+    {
+      return scene.model.is_consistent() ? std::vector<std::string>() : in_statics(scene, section, named);
+    }
+
     Rule of_motion(const std::string &parameter, const Rule::Breaches &breaches)
     {
       return refuse_each(parameter,
@@ -45,6 +53,16 @@ namespace perideal
                          "this belongs to dynamics, quasi static and dynamic relaxation",
                          "",
                          "set Solver/Name = dynamics, or = quasi static");
+    }
+
+    Rule of_cracks(const std::string &parameter, const Rule::Breaches &breaches)
+    {
+      return refuse_each(parameter,
+                         "Solver/Name = static, Material/Form other than consistent",
+                         breaches,
+                         "in linear statics the consistent form alone has cracks",
+                         "",
+                         "set Material/Form = consistent, or Solver/Name = dynamics or = quasi static");
     }
   } // namespace
 
@@ -78,14 +96,12 @@ namespace perideal
                   "set Material/Failure criterion and Tensile strength"),
       refuse(
         "Material/Form",
-        "Material/Model = correspondence, Material/Form = consistent, with Material/Failure criterion or "
-        "Precracks/",
-        [](const Scene &s) {
-          return s.model.is_correspondence() && s.model.is_consistent() &&
-                 (s.material.has_criterion() || !s.precracks.cracks.empty());
-        },
-        "the consistent form takes gradients from faces, which no crack cuts",
-        "automatic | family with Failure criterion or Precracks"),
+        "Material/Form = consistent, Material/Model other than extended ordinary, with what breaks bonds "
+        "(Material/Fracture energy, Critical stretch, Failure criterion) and Solver/Name other than static",
+        [](const Scene &s) { return has_fracture_zone(s) && s.model.model->default_forms.in_zone.empty(); },
+        "cracks do not grow in the consistent form of this model",
+        "automatic where bonds break; consistent with Precracks alone",
+        "or set Material/Model = extended ordinary"),
       refuse_each(
         "Cracks/NAME/Branch length",
         "Dimension = 3",
@@ -111,9 +127,10 @@ namespace perideal
         },
         "energy release rates are integrated in equilibria of plane bodies, where they are asked for",
         "0 for this scene"),
-      of_motion("Precracks/NAME",
-                [](const Scene &s) { return in_statics(s, "Precracks", s.precracks.cracks); }),
-      of_motion("Cracks/NAME", [](const Scene &s) { return in_statics(s, "Cracks", s.cracks.cracks); }),
+      of_cracks("Precracks/NAME",
+                [](const Scene &s) { return in_statics_of_bonds(s, "Precracks", s.precracks.cracks); }),
+      of_cracks("Cracks/NAME",
+                [](const Scene &s) { return in_statics_of_bonds(s, "Cracks", s.cracks.cracks); }),
       of_motion("No-fail zones/NAME",
                 [](const Scene &s) { return in_statics(s, "No-fail zones", s.no_fail.zones); }),
     };

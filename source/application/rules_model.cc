@@ -94,17 +94,17 @@ namespace perideal
              list_of_forms([](const FormTraits &) { return true; }) + "; here Material/Model = ..."),
       refuse(
         "Material/Form",
-        "Material/Form = consistent | surface cure, with Solver/Name other than static (Material/Model = "
-        "correspondence: see Solver/Name)",
+        "Material/Form = surface cure, with Solver/Name other than static",
         [](const Scene &s) { return s.model.is_linear_only() && !s.solver.is_linear_static(); },
         "this form is one of linear statics",
         list_of_forms([](const FormTraits &form) { return form.solvers.quasi_statics; }) +
           " with Solver/Name = ..."),
       refuse("Solver/Name",
-             "Material/Model = correspondence, Solver/Name = dynamics | dynamic relaxation",
+             "Solver/Name = dynamic relaxation with Material/Form = consistent or Material/Model = "
+             "correspondence; Solver/Name = dynamics with Material/Model = correspondence, Form = family",
              is_not_of_motion,
-             "the correspondence model is one of statics, by tangents",
-             "static | quasi static for Material/Model = correspondence"),
+             "this form has no such solver",
+             "static | quasi static; dynamics with Material/Form = consistent"),
       refuse(
         "Material/Law",
         "Material/Model other than correspondence",
@@ -114,13 +114,14 @@ namespace perideal
         "or set Material/Model = correspondence"),
       refuse(
         "Material/Law",
-        "Material/Model = correspondence, Solver/Name other than quasi static",
+        "Material/Model = correspondence, Solver/Name other than quasi static | dynamics",
         [](const Scene &s) {
-          return !s.model.law->is_linear && s.model.is_correspondence() && !s.solver.is_quasi_static();
+          return !s.model.law->is_linear && s.model.is_correspondence() && !s.solver.is_quasi_static() &&
+                 !s.solver.is_dynamic();
         },
-        "large strain is sought along load steps",
+        "large strain is sought along load steps or in motion",
         "linear elastic for Solver/Name = ...",
-        "set Solver/Name = quasi static"),
+        "set Solver/Name = quasi static, or = dynamics"),
       refuse("Material/Law",
              "Material/Law = neo-Hookean, Material/NAME/Symmetry other than isotropic",
              has_symmetry_without_law,

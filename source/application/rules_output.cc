@@ -96,10 +96,10 @@ namespace perideal
           "set it to false"),
         refuse_each(
           "Comparison/FEM, Reference",
-          "Solver/Name = quasi static | dynamic relaxation, with Precracks/",
+          "Solver/Name other than dynamics, with Precracks/",
           [](const Scene &s) {
-            return s.solver.is_nonlinear_static() && !s.precracks.cracks.empty() ? comparisons(s) :
-                                                                                   std::vector<std::string>();
+            return !s.solver.is_dynamic() && !s.precracks.cracks.empty() ? comparisons(s) :
+                                                                           std::vector<std::string>();
           },
           "the finite elements that the solution would be compared with have no cracks",
           "false with Precracks",

@@ -169,6 +169,13 @@ namespace perideal
         "above 1e-4, with Solver/Name = static | quasi static | dynamic relaxation",
         [](const Scene &s) { return !s.solver.is_dynamic() && s.solver.tolerance > 1e-4; },
         "the error of displacements may be many times the tolerance: take 1e-4 or less"),
+      refuse(
+        "Solver/Relative damping",
+        "Material/Form = consistent",
+        [](const Scene &s) { return s.solver.relative_damping > 0 && s.model.is_consistent(); },
+        "damping between nodes is that of bonds that carry the body's forces",
+        "0 for Material/Form = consistent",
+        "set Solver/Damping"),
       of_dynamics("Boundary conditions/NAME/v_x, v_y, v_z", velocities_of_conditions),
       of_dynamics("Initial conditions/v_x, v_y, v_z", initial_velocities),
       of_steps("Checkpoints/Steps",

@@ -19,7 +19,8 @@ namespace perideal
         for (unsigned int k = 0; k < n_conditions; ++k)
           if (loads.conditions[k].acts_on(points[p].boundary))
             for (int d = 0; d < dim; ++d)
-              if (loads.conditions[k].displacement[d].is_present())
+              if (loads.conditions[k].displacement[d].is_present() ||
+                  loads.conditions[k].velocity[d].is_present())
                 entry.condition[d] = k;
         if (std::any_of(
               entry.condition.begin(), entry.condition.end(), [](const auto k) { return k != free; }))
@@ -40,8 +41,22 @@ namespace perideal
     for (Entry &entry : list)
       for (int d = 0; d < dim; ++d)
         if (entry.condition[d] != free)
-          entry.increment[d] =
-            loads.conditions[entry.condition[d]].displacement[d].value(entry.position, time) - entry.value[d];
+          if (const auto &position = loads.conditions[entry.condition[d]].displacement[d];
+              position.is_present())
+            entry.increment[d] = position.value(entry.position, time) - entry.value[d];
+  }
+
+  template <int dim>
+  void FaceValues<dim>::prepare_step(const Loads<dim> &loads, const double time, const double time_step)
+  {
+    prepare(loads, time + time_step);
+    for (Entry &entry : list)
+      for (int d = 0; d < dim; ++d)
+        if (entry.condition[d] != free)
+          if (const auto &condition = loads.conditions[entry.condition[d]];
+              !condition.displacement[d].is_present())
+            entry.increment[d] =
+              time_step * condition.velocity[d].value(entry.position, time + 0.5 * time_step);
   }
 
   template <int dim>

@@ -84,7 +84,7 @@ namespace perideal
     print_materials(problem);
     if (!kind.has_motion && !kind.has_iterations)
       {
-        problem.discretisation.gradients.make(problem.body);
+        problem.discretisation.gradients.make(problem.body, problem.failure.precrack_test());
         out << "suits       " << suitable_form(problem.parameters, thin_cells(problem)) << '\n';
       }
     for (const std::string &warning : warnings(problem))

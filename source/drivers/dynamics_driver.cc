@@ -5,6 +5,7 @@
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/motion_check.h>
 #include <perideal/drivers/motion_forces.h>
+#include <perideal/drivers/motion_steps.h>
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
 
@@ -92,39 +93,17 @@ namespace perideal
 
       double damping() const override { return solver.damping + forces.largest_rate(); }
 
-      /// Of the shortest steps these would take weeks.
-      static constexpr double most_steps = 1e11;
-
       void choose_time_step()
       {
         const Timings::Scope scope(problem.run.timings, "setup");
-        stable_step = this->largest_stable_step();
-        if (!std::isfinite(stable_step))
-          throw InputError("every node is held: nothing is left that could move")
-            .parameter("Boundary conditions")
-            .hint("hold less of the body, or take smaller cells, of which a boundary holds fewer");
-        if (!(stable_step > 0))
-          throw InputError("the damping leaves no time step that is stable")
-            .parameter(forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping")
-            .hint("a motion of frequency f [1/s] is damped critically by 4 pi f");
-        const double wanted = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable_step;
-        // A whole number of steps.
-        const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
-        if (!(n_wanted <= most_steps))
-          throw InputError("the run would take " + short_number(n_wanted) + " steps of " +
-                           short_number(wanted) + " s; the largest stable step is " +
-                           short_number(stable_step) + " s")
-            .parameter(solver.time_step > 0 && solver.time_step < 1e-3 * stable_step ? "Solver/Time step" :
-                                                                                       "Solver/End time")
-            .allowed("what makes 1e11 steps at most")
-            .hint("look at Solver/End time and Solver/Time step [s], Material/Density [kg/m^3] and Young "
-                  "modulus [Pa], "
-                  "and at the size of the body [m]");
-        time_step = resumed ? resumed->template get<double>("time step") : solver.end_time / n_wanted;
-        n_steps   = std::ceil(solver.end_time / time_step - 1e-6);
-        if (time_step > stable_step)
-          problem.run.warn("the time step " + short_number(time_step) +
-                           " s is larger than the largest stable one, " + short_number(stable_step) + " s");
+        steps.choose(solver,
+                     this->largest_stable_step(),
+                     forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping");
+        if (resumed)
+          steps.resume(solver, resumed->template get<double>("time step"));
+        if (steps.size > steps.stable)
+          problem.run.warn("the time step " + short_number(steps.size) +
+                           " s is larger than the largest stable one, " + short_number(steps.stable) + " s");
       }
 
       std::string describe() const override
@@ -133,9 +112,9 @@ namespace perideal
         if (has_contact(problem.parameters))
           text += "contact     of nodes without a bond, nearer than " +
                   short_number(problem.parameters.contact.distance) + " spacings\n";
-        if (time_step > 0)
-          text += "time        " + short_number(solver.end_time) + " s in " + std::to_string(n_steps) +
-                  " steps of " + short_number(time_step) + " s, " + integrator() + '\n';
+        if (steps.size > 0)
+          text += "time        " + short_number(solver.end_time) + " s in " + std::to_string(steps.number) +
+                  " steps of " + short_number(steps.size) + " s, " + integrator() + '\n';
         return text;
       }
 
@@ -174,7 +153,7 @@ namespace perideal
                                                            problem.loading.loads,
                                                            mass,
                                                            solver.damping,
-                                                           time_step,
+                                                           steps.size,
                                                            solver.integrator == Integrator::velocity_verlet ?
                                                                 Start::velocity_verlet :
                                                                 Start::symplectic_euler);
@@ -196,19 +175,21 @@ namespace perideal
       bool advance() override
       {
         recorders->summary()["solver"] = {{"name", "explicit dynamics, " + integrator()},
-                                          {"time_step", time_step},
-                                          {"stable_time_step", stable_step}};
+                                          {"time_step", steps.size},
+                                          {"stable_time_step", steps.stable}};
         make_dynamics();
         register_state();
         if (resumed)
           this->resume_checkpoint();
+        if (!problem.loading.supports->hold_nodes())
+          dynamics->move_faces(*problem.loading.supports->face_values());
         apply_forces();
         const bool        loads_change = problem.loading.loads.forces_depend_on_time();
         const auto        interval     = problem.parameters.checkpoints.steps;
         auto             &screen       = problem.run.screen;
         const StopRequest stop;
-        StepLine          progress(screen.get_stream(), screen.is_active(), n_steps);
-        for (std::uint64_t n = dynamics->step(); n <= n_steps; ++n)
+        StepLine          progress(screen.get_stream(), screen.is_active(), steps.number);
+        for (std::uint64_t n = dynamics->step(); n <= steps.number; ++n)
           {
             {
               const Timings::Scope scope(problem.run.timings, "solve");
@@ -218,7 +199,7 @@ namespace perideal
             }
             observe(n);
             progress(n, dynamics->n_broken());
-            if (n == n_steps)
+            if (n == steps.number)
               break;
             {
               const Timings::Scope scope(problem.run.timings, "solve");
@@ -246,12 +227,14 @@ namespace perideal
         step.time         = dynamics->time();
         step.n_broken     = dynamics->n_broken();
         step.newly_broken = dynamics->n_broken_now();
-        step.is_last      = n == n_steps;
+        step.is_last      = n == steps.number;
 
         recorders->observe(step);
         recorders->summary()["solver"]["steps"] = n;
         const bool row = n % problem.parameters.history_steps == 0 || step.is_last || all_broke;
-        const auto at = [&](const std::size_t frame) { return std::round(double(frame) * n_steps / frames); };
+        const auto at  = [&](const std::size_t frame) {
+          return std::round(double(frame) * steps.number / frames);
+        };
         const bool frame = recorders->n_frames() < frames && n >= at(recorders->n_frames() + 1);
         if (row || frame)
           measure(step);
@@ -278,11 +261,10 @@ namespace perideal
       {
         const Timings::Scope scope(problem.run.timings, "energy");
         step.energy = dynamics->energy();
-        motion_check.look(*dynamics, step.energy, this->largest_energy, stable_step);
+        motion_check.look(*dynamics, step.energy, this->largest_energy, steps.stable);
         store();
-        step.reactions =
-          problem.loading.supports->held().sum_by_condition(dynamics->reaction(), problem.run.communicator);
-        step.momentum = dynamics->momentum();
+        step.reactions = problem.loading.supports->reactions(dynamics->reaction(), dynamics->face_reaction());
+        step.momentum  = dynamics->momentum();
       }
 
       void store()
@@ -303,7 +285,7 @@ namespace perideal
       void register_state()
       {
         LastingState &state = problem.lasting;
-        state.add_value("time step", time_step);
+        state.add_value("time step", steps.size);
         dynamics->register_state(state);
         if (forces.contact)
           state.add_part("contact", recorders->summary());
@@ -321,11 +303,9 @@ namespace perideal
       std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
       MotionForces<dim>                       forces;
       std::vector<double>                     mass;
-      /// [s]
-      double                                 time_step = 0, stable_step = 0;
-      std::uint64_t                          n_steps = 0;
-      std::unique_ptr<ExplicitDynamics<dim>> dynamics;
-      MotionCheck<dim>                       motion_check;
+      MotionSteps                             steps;
+      std::unique_ptr<ExplicitDynamics<dim>>  dynamics;
+      MotionCheck<dim>                        motion_check;
     };
   } // namespace
 

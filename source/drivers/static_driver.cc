@@ -27,7 +27,7 @@ namespace perideal
       using Driver<dim>::problem;
       using Driver<dim>::recorders;
 
-      void prepare_scene() override {}
+      void prepare_scene() override { problem.failure.prepare(problem.body); }
 
       void prepare() override
       {

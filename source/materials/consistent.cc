@@ -14,7 +14,7 @@ namespace perideal
     FormTraits result;
     result.name                        = "consistent";
     result.discretisation              = Discretisation::faces;
-    result.solvers                     = {false, false, false};
+    result.solvers                     = {true, false, true};
     result.defaults.influence_function = "cubic spline";
     result.defaults.stabilisation      = {{1.1, 0.5}};
     result.defaults.horizon_factor     = 2.01;

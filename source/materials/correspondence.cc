@@ -94,10 +94,9 @@ namespace perideal
   {
     ModelTraits correspondence()
     {
-      // Tangents serve statics and load steps.
       FormTraits consistent = consistent_form(), family;
-      for (FormTraits *form : {&consistent, &family})
-        form->solvers = {true, false, false};
+      // Its tangents serve statics and load steps.
+      family.solvers = {true, false, false};
       family.name    = "family";
       family.meaning = "the deformation gradient by the bonds of the family, as published";
       family.defaults.influence_function = "gaussian";

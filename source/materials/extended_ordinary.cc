@@ -197,7 +197,7 @@ namespace perideal
       result.name             = "extended ordinary";
       result.meaning          = "with multipliers that make families of any shape exact for uniform strain";
       result.forms            = {consistent_form(), energy, paper};
-      result.default_forms    = {consistent_form().name, energy.name, energy.name};
+      result.default_forms    = {consistent_form().name, energy.name, energy.name, energy.name};
       result.critical_stretch = &ordinary_critical_stretch;
       result.declare          = &declare;
       return result;

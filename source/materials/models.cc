@@ -135,6 +135,15 @@ namespace perideal
       stabilisation = std::to_string(traits.defaults.stabilisation[dimension - 2]);
   }
 
+  ModelParameters ModelParameters::in_zone() const
+  {
+    ModelParameters result = *this;
+    result.form            = model->default_forms.in_zone;
+    if (influence_function == form_traits().defaults.influence_function)
+      result.influence_function = result.form_traits().defaults.influence_function;
+    return result;
+  }
+
   const FormTraits &ModelParameters::form_traits() const
   {
     static const FormTraits none;

@@ -31,11 +31,10 @@ namespace perideal
   }
 
   template <int dim>
-  ConnectedParts<dim>::ConnectedParts(
-    const Mesh<dim>                                                                   &mesh,
-    const Nodes<dim>                                                                  &nodes,
-    const Families<dim>                                                               &families,
-    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut)
+  ConnectedParts<dim>::ConnectedParts(const Mesh<dim>          &mesh,
+                                      const Nodes<dim>         &nodes,
+                                      const Families<dim>      &families,
+                                      const BondPredicate<dim> &is_cut)
   {
     const std::vector<unsigned int> part_of_cell = parts_of_coarse_cells(mesh);
     n_parts = n_bodies = 1 + *std::max_element(part_of_cell.begin(), part_of_cell.end());
@@ -54,10 +53,9 @@ namespace perideal
   }
 
   template <int dim>
-  void ConnectedParts<dim>::join(
-    const Families<dim>                                                               &families,
-    const std::vector<unsigned int>                                                   &part_of_node,
-    const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut)
+  void ConnectedParts<dim>::join(const Families<dim>             &families,
+                                 const std::vector<unsigned int> &part_of_node,
+                                 const BondPredicate<dim>        &is_cut)
   {
     NodalVector of_all(families.make_partitioner(1));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)

@@ -95,7 +95,8 @@ namespace perideal
   void warn_of_surfaces(const Problem<dim> &problem, std::vector<std::string> &result)
   {
     const ModelParameters &model = problem.parameters.model;
-    if ((model.is_consistent() && model.is_linear_only()) || problem.loading.tractions->complete_families())
+    if ((model.is_consistent() && !model.is_correspondence()) ||
+        problem.loading.tractions->complete_families())
       return;
     const double      whole   = lattice_family<dim>(problem.parameters.nodes.horizon_factor).size;
     const double      missing = 1. - problem.discretisation.families->statistics().mean / whole;

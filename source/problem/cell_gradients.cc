@@ -8,7 +8,7 @@
 namespace perideal
 {
   template <int dim>
-  void CellGradients<dim>::make(const Body<dim> &body)
+  void CellGradients<dim>::make(const Body<dim> &body, const BondPredicate<dim> &is_cut)
   {
     if (*this)
       return;
@@ -24,10 +24,12 @@ namespace perideal
     // Polynomials are closed by the directions of the body at rest, which large rotations leave.
     const auto                               solid_of = solids_of_model(body);
     typename CellPolynomials<dim>::Stiffness of_closure;
-    if (model.law->is_linear)
+    const bool                               moves = body.parameters.solver.is_dynamic();
+    if (model.law->is_linear && !moves)
       of_closure = [&](const dealii::types::material_id id) { return solid_of(id).stiffness(); };
-    polynomials = std::make_shared<const CellPolynomials<dim>>(*body.mesh, *body.nodes, of_closure);
-    faces       = std::make_shared<const FaceMoments<dim>>(*body.mesh, polynomials->graph(), stiffness);
+    polynomials = std::make_shared<const CellPolynomials<dim>>(
+      *body.mesh, *body.nodes, of_closure, is_cut, moves ? CellUnknown::value : CellUnknown::mean);
+    faces = std::make_shared<const FaceMoments<dim>>(*body.mesh, polynomials->graph(), stiffness, is_cut);
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/continuum_force.h>
 #include <perideal/operators/post/partial_stress.h>
+#include <perideal/operators/weights/cell_points.h>
 #include <perideal/problem/crack_driving.h>
 #include <perideal/problem/elastic_states.h>
 #include <perideal/reconstruction/family_quadratics.h>
@@ -148,6 +149,23 @@ namespace perideal
             result.gradient.push_back(gradients[i]);
             result.stress.push_back(by_law->law(i).stress(gradients[i]));
             result.energy_density.push_back(by_law->law(i).energy(gradients[i]));
+          }
+        return result;
+      }
+    if (!problem.force)
+      {
+        // Linear statics of the consistent form.
+        const GradientMoments<2> &moments  = *problem.discretisation.gradients.moments;
+        const auto                solid_of = solids_of_model(problem.body);
+        moments.read(problem.state.unknowns, GradientMoments<2>::AtFaces::values);
+        for (const LocalIndex i : nodes)
+          {
+            const auto gradient = to_tensor<2>(moments.gradient(i));
+            const auto stress =
+              solid_of(problem.body.nodes->material[i]).stiffness() * dealii::symmetrize(gradient);
+            result.gradient.push_back(gradient);
+            result.stress.push_back(stress);
+            result.energy_density.push_back(0.5 * (stress * dealii::symmetrize(gradient)));
           }
         return result;
       }

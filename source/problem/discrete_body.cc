@@ -4,9 +4,11 @@
 #include <perideal/materials/models.h>
 #include <perideal/operators/force/consistent_force.h>
 #include <perideal/operators/force/correspondence_force.h>
+#include <perideal/operators/force/zoned_force.h>
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/linear/correspondence_tangent.h>
 #include <perideal/operators/linear/polynomial_response.h>
+#include <perideal/operators/linear/zoned_tangent.h>
 #include <perideal/problem/discrete_body.h>
 #include <perideal/quadrature/bond_volume.h>
 
@@ -22,6 +24,18 @@ namespace perideal
                                           ElasticSolid<dim>(model.constants_of_model(solid.isotropic()));
     };
   }
+
+  namespace
+  {
+    /// The law of a scene: what is not one of laws is linear at rest, and may turn as it moves or along load
+    /// steps.
+    LawChoice law_of(const SceneParameters &parameters)
+    {
+      return parameters.model.is_correspondence() || parameters.solver.is_linear_static() ?
+               parameters.model.law :
+               LawChoice("Saint Venant-Kirchhoff");
+    }
+  } // namespace
 
   template <int dim>
   void DiscreteBody<dim>::find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud)
@@ -47,10 +61,10 @@ namespace perideal
   {
     const SceneParameters &parameters = body.parameters;
     for (const auto &solid : body.solids)
-      if (parameters.model.is_correspondence())
-        laws[solid.first] = create_law<dim>(parameters.model.law, solid.second);
+      if (parameters.model.is_correspondence() || parameters.model.is_consistent())
+        laws[solid.first] = create_law<dim>(law_of(parameters), solids_of_model(body)(solid.first));
     if (parameters.model.is_consistent())
-      weigh_faces(body, face_values);
+      weigh_faces(body, face_values, is_cut);
     else if (parameters.model.is_correspondence())
       weigh_correspondence(body);
     else if (parameters.quadrature.has_gauss_points())
@@ -63,7 +77,8 @@ namespace perideal
 
   template <int dim>
   void DiscreteBody<dim>::weigh_faces(const Body<dim>                        &body,
-                                      const std::shared_ptr<FaceValues<dim>> &face_values)
+                                      const std::shared_ptr<FaceValues<dim>> &face_values,
+                                      const BondPredicate<dim>               &is_cut)
   {
     const auto solid_of = solids_of_model(body);
     gradients.make_moments(body, face_values);
@@ -71,9 +86,24 @@ namespace perideal
       families,
       *gradients.polynomials,
       create_consistent<dim>(body.parameters.model, body.parameters.nodes.horizon_factor),
-      solid_of);
+      solid_of,
+      is_cut);
     bonds =
       std::make_shared<ConsistentOperator<dim>>(families, gradients.moments, consistent_bonds, solid_of);
+    if (!has_fracture_zone(body.parameters))
+      return;
+    model   = create_model<dim>(body.parameters.model.in_zone(), body.mesh->thickness);
+    weights = weigh_bonds<dim>(families, *model, solid_of, {{}, true, false});
+  }
+
+  template <int dim>
+  std::vector<std::pair<dealii::Point<dim>, double>> DiscreteBody<dim>::held_faces() const
+  {
+    std::vector<std::pair<dealii::Point<dim>, double>> result;
+    const auto                                        &points = gradients.moments->faces().boundary_points();
+    for (const auto &entry : gradients.moments->prescribed_values().entries())
+      result.emplace_back(entry.position, families->spacing[points[entry.point].node]);
+    return result;
   }
 
   template <int dim>
@@ -123,7 +153,13 @@ namespace perideal
   std::unique_ptr<BondForce<dim>> DiscreteBody<dim>::create_force() const
   {
     if (consistent_bonds)
-      return std::make_unique<ConsistentForce<dim>>(families, gradients.moments, consistent_bonds, laws);
+      {
+        auto cells =
+          std::make_unique<ConsistentForce<dim>>(families, gradients.moments, consistent_bonds, laws);
+        if (weights)
+          return std::make_unique<ZonedForce<dim>>(std::move(cells), weights, held_faces());
+        return cells;
+      }
     if (correspondence)
       return std::make_unique<CorrespondenceForce<dim>>(families, correspondence, laws);
     return create_bond_force<dim>(*weights);
@@ -132,6 +168,8 @@ namespace perideal
   template <int dim>
   std::shared_ptr<TangentOperator<dim>> DiscreteBody<dim>::create_tangent() const
   {
+    if (consistent_bonds && weights)
+      return std::make_shared<ZonedTangent<dim>>(std::static_pointer_cast<ConsistentOperator<dim>>(bonds));
     // Of models that follow a law, the operator at rest is the tangent.
     if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds); tangent)
       return tangent;

@@ -45,10 +45,10 @@ namespace perideal
     const auto             is_cut = failure.precrack_test();
     failure.check_precracks(body, *discretisation.families);
     discretisation.find_parts(body, is_cut);
-    if (model.is_linear_only() || model.is_consistent())
+    if (model.has_cell_strains())
       {
         const Timings::Scope part(run.timings, "setup: gradients");
-        discretisation.gradients.make(body);
+        discretisation.gradients.make(body, is_cut);
         loading.supports->make_face_values(discretisation.gradients.boundary_points());
       }
     {

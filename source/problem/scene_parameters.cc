@@ -163,6 +163,11 @@ namespace perideal
                         [&](const auto &group) { return breaks(group.second); }));
   }
 
+  bool has_fracture_zone(const SceneParameters &parameters)
+  {
+    return parameters.model.is_consistent() && can_break(parameters);
+  }
+
   bool has_contact(const SceneParameters &parameters)
   {
     if (parameters.contact.enabled == ContactChoice::automatic)

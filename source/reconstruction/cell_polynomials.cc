@@ -86,10 +86,11 @@ namespace perideal
     using Cell    = typename CellGraph<dim>::Cell;
     using Stencil = std::vector<LocalIndex>;
 
-    Builder(CellPolynomials &result, const Stiffness &stiffness)
+    Builder(CellPolynomials &result, const Stiffness &stiffness, const BondPredicate<dim> &is_cut)
       : result(result)
       , graph(result.cells)
       , stiffness(stiffness)
+      , is_cut(is_cut)
     {
     }
 
@@ -145,7 +146,7 @@ namespace perideal
       return stencil;
     }
 
-    /// Whether the body or its material ends at a face of a cell.
+    /// Whether the body or its material ends at a face of the cell, or a crack is there.
     bool ends_at(const Cell &cell, const unsigned int f) const
     {
       bool result = cell->at_boundary(f);
@@ -153,7 +154,7 @@ namespace perideal
       return result;
     }
 
-    /// Area vectors of the faces of a cell where the body or its material ends.
+    /// Area vectors of the faces of the cell where the body or its material ends.
     std::vector<dealii::Tensor<1, dim>> ends(const Cell &cell) const
     {
       std::vector<dealii::Tensor<1, dim>> areas;
@@ -203,9 +204,14 @@ namespace perideal
       return wider;
     }
 
-    bool is_alike(const LocalIndex k) const { return graph.material[k] == graph.material[node]; }
+    /// Whether a cell is of the same material, on the same side of all cracks.
+    bool is_alike(const LocalIndex k) const
+    {
+      return graph.material[k] == graph.material[node] &&
+             !(is_cut && k != node && is_cut(graph.position[node], graph.position[k]));
+    }
 
-    /// Sorts a stencil and keeps what is of the material of its cell.
+    /// Sorts a stencil and keeps what is like its cell.
     void clean(Stencil &stencil) const
     {
       stencil.erase(
@@ -220,18 +226,24 @@ namespace perideal
       stencil.erase(std::unique(stencil.begin(), stencil.end()), stencil.end());
     }
 
+    dealii::SymmetricTensor<2, dim> moment_of_unknown(const LocalIndex k) const
+    {
+      return result.unknown == CellUnknown::mean ? result.moments[k] : dealii::SymmetricTensor<2, dim>();
+    }
+
     void fit_to(const Stencil &stencil)
     {
       others.clear();
       for (const LocalIndex k : stencil)
         if (k != node)
-          others.push_back({result.centroid[k] - result.centroid[node], result.moments[k]});
-      fit.reinit(result.moments[node], others);
+          others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k)});
+      fit.reinit(moment_of_unknown(node), others, result.moments[node]);
     }
 
     CellPolynomials                              &result;
     const CellGraph<dim>                         &graph;
     const Stiffness                              &stiffness;
+    const BondPredicate<dim>                     &is_cut;
     LocalIndex                                    node = 0;
     QuadraticFit<dim>                             fit;
     std::vector<typename QuadraticFit<dim>::Cell> others;
@@ -240,10 +252,13 @@ namespace perideal
   };
 
   template <int dim>
-  CellPolynomials<dim>::CellPolynomials(const Mesh<dim>  &mesh,
-                                        const Nodes<dim> &nodes,
-                                        const Stiffness  &stiffness)
+  CellPolynomials<dim>::CellPolynomials(const Mesh<dim>          &mesh,
+                                        const Nodes<dim>         &nodes,
+                                        const Stiffness          &stiffness,
+                                        const BondPredicate<dim> &is_cut,
+                                        const CellUnknown         unknown)
     : cells(mesh, nodes, GhostLayers::two)
+    , unknown(unknown)
     , moments(nodes.size())
     , centroid(nodes.size())
     , volume(nodes.volume)
@@ -266,7 +281,7 @@ namespace perideal
     row.reserve(nodes.size() + 1);
     column.reserve(n_entries);
     coefficient.reserve(n_entries);
-    Builder builder(*this, stiffness);
+    Builder builder(*this, stiffness, is_cut);
     for (const auto &cell : cell_of_node)
       builder.add(cell);
     cells.forget_layers();

@@ -80,22 +80,27 @@ namespace perideal
     }
   } // namespace
 
+  /// Fills the list of faces and their moments.
   template <int dim>
-  FaceMoments<dim>::FaceMoments(const Mesh<dim>                                               &mesh,
-                                const CellGraph<dim>                                          &graph,
-                                const std::function<double(const dealii::types::material_id)> &stiffness)
+  class FaceMoments<dim>::Builder
   {
-    const auto add_inner = [&](const Cell &cell, const unsigned int f, const Cell &other) {
-      const LocalIndex      i = graph.node_of(cell), j = graph.node_of(other);
-      std::array<double, 2> share = {{0.5, 0.5}};
-      if (graph.material[i] != graph.material[j])
-        {
-          const double of_i = stiffness(graph.material[i]), of_j = stiffness(graph.material[j]);
-          share = {{of_i / (of_i + of_j), of_j / (of_i + of_j)}};
-        }
-      add(cell, f, {{{i, j}}, share, {}, false, 0}, mesh.thickness);
-    };
-    const auto add_inner_faces = [&](const Cell &cell, const unsigned int f) {
+  public:
+    Builder(FaceMoments                                                   &result,
+            const CellGraph<dim>                                          &graph,
+            const double                                                   thickness,
+            const std::function<double(const dealii::types::material_id)> &stiffness,
+            const BondPredicate<dim>                                      &is_cut)
+      : result(result)
+      , graph(graph)
+      , thickness(thickness)
+      , stiffness(stiffness)
+      , is_cut(is_cut)
+    {
+    }
+
+    /// Adds the inner faces of an owned cell, those to other owned cells once; open ones are kept for later.
+    void add_inner_faces(const Cell &cell, const unsigned int f)
+    {
       if (!cell->face(f)->has_children())
         {
           const Cell other = cell->neighbor(f);
@@ -111,7 +116,105 @@ namespace perideal
           if (!child->is_locally_owned())
             add_inner(child, cell->neighbor_face_no(f), cell);
         }
+    }
+
+    /// Adds the sides of open faces that are owned.
+    void add_open_faces()
+    {
+      for (const auto &[cell, f, nodes] : open)
+        for (unsigned int side = 0; side < 2; ++side)
+          if (nodes[side] < graph.n_owned())
+            {
+              auto points = outward_points<dim>(cell, f, thickness);
+              for (auto &p : points)
+                p.area *= side == 0 ? 1. : -1.;
+              add(points, {{{nodes[side], none}}, {{1., 0.}}, {}, false, 0});
+            }
+    }
+
+    /// Adds a face at the boundary.
+    void add_boundary_face(const Cell &cell, const unsigned int f)
+    {
+      const LocalIndex node   = graph.node_of(cell);
+      const auto       number = static_cast<unsigned int>(result.list.size() - result.first_at_boundary);
+      const auto       points = outward_points<dim>(cell, f, thickness);
+      for (const auto &p : points)
+        result.points.push_back({node, number, cell->face(f)->boundary_id(), p.point, p.area});
+      add(points, {{{node, none}}, {{1., 0.}}, {}, false, 0});
+    }
+
+  private:
+    /// A face that a crack crosses, seen from the cell that has it whole.
+    struct OpenFace
+    {
+      Cell                      cell;
+      unsigned int              face;
+      std::array<LocalIndex, 2> node;
     };
+
+    void add_inner(const Cell &cell, const unsigned int f, const Cell &other)
+    {
+      const LocalIndex i = graph.node_of(cell), j = graph.node_of(other);
+      if (is_cut && is_cut(graph.position[i], graph.position[j]))
+        {
+          open.push_back({cell, f, {{i, j}}});
+          return;
+        }
+      std::array<double, 2> share = {{0.5, 0.5}};
+      if (graph.material[i] != graph.material[j])
+        {
+          const double of_i = stiffness(graph.material[i]), of_j = stiffness(graph.material[j]);
+          share = {{of_i / (of_i + of_j), of_j / (of_i + of_j)}};
+        }
+      add(outward_points<dim>(cell, f, thickness), {{{i, j}}, share, {}, false, 0});
+    }
+
+    void add(const FacePoints<dim> &points, Face face)
+    {
+      using M                    = Monomials<dim>;
+      std::vector<double> &value = result.value;
+      for (const auto &p : points)
+        face.centre += p.point / static_cast<double>(points.size());
+      face.is_plane = is_plane(points);
+      face.first    = value.size();
+      dealii::Tensor<1, dim> normal;
+      if (face.is_plane)
+        {
+          normal = points[0].area / points[0].area.norm();
+          for (unsigned int l = 0; l < dim; ++l)
+            value.push_back(normal[l]);
+        }
+      const std::size_t at = value.size();
+      value.resize(at + (face.is_plane ? 1 : dim) * M::n, 0.);
+      std::array<double, M::n> monomials;
+      for (const auto &p : points)
+        {
+          M::evaluate(p.point - face.centre, monomials);
+          if (face.is_plane)
+            for (unsigned int m = 0; m < M::n; ++m)
+              value[at + m] += (p.area * normal) * monomials[m];
+          else
+            for (unsigned int l = 0; l < dim; ++l)
+              for (unsigned int m = 0; m < M::n; ++m)
+                value[at + l * M::n + m] += p.area[l] * monomials[m];
+        }
+      result.list.push_back(face);
+    }
+
+    FaceMoments                                                   &result;
+    const CellGraph<dim>                                          &graph;
+    const double                                                   thickness;
+    const std::function<double(const dealii::types::material_id)> &stiffness;
+    const BondPredicate<dim>                                      &is_cut;
+    std::vector<OpenFace>                                          open;
+  };
+
+  template <int dim>
+  FaceMoments<dim>::FaceMoments(const Mesh<dim>                                               &mesh,
+                                const CellGraph<dim>                                          &graph,
+                                const std::function<double(const dealii::types::material_id)> &stiffness,
+                                const BondPredicate<dim>                                      &is_cut)
+  {
     list.reserve(mesh.triangulation.n_active_faces());
     value.reserve(list.capacity() * (dim + Monomials<dim>::n));
     // In the order of the nodes, so that those of a cell's faces lie close in memory.
@@ -119,57 +222,18 @@ namespace perideal
     for (const Cell &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         cells[graph.node_of(cell)] = cell;
-    for (const Cell &cell : cells)
-      for (const unsigned int f : cell->face_indices())
-        if (!cell->at_boundary(f))
-          add_inner_faces(cell, f);
-    n_inner = list.size();
-
-    for (const Cell &cell : cells)
-      if (cell->at_boundary())
+    Builder    builder(*this, graph, mesh.thickness, stiffness, is_cut);
+    const auto visit = [&](const bool at_boundary, const auto &act) {
+      for (const Cell &cell : cells)
         for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f))
-            {
-              const auto number = static_cast<unsigned int>(list.size() - n_inner);
-              for (const auto &p : outward_points<dim>(cell, f, mesh.thickness))
-                points.push_back(
-                  {graph.node_of(cell), number, cell->face(f)->boundary_id(), p.point, p.area});
-              add(cell, f, {{{graph.node_of(cell), none}}, {{1., 0.}}, {}, false, 0}, mesh.thickness);
-            }
-  }
-
-  template <int dim>
-  void FaceMoments<dim>::add(const Cell &cell, const unsigned int f, const Face &face, const double thickness)
-  {
-    using M           = Monomials<dim>;
-    const auto points = outward_points<dim>(cell, f, thickness);
-    Face       result = face;
-    for (const auto &p : points)
-      result.centre += p.point / static_cast<double>(points.size());
-    result.is_plane = is_plane(points);
-    result.first    = value.size();
-    dealii::Tensor<1, dim> normal;
-    if (result.is_plane)
-      {
-        normal = points[0].area / points[0].area.norm();
-        for (unsigned int l = 0; l < dim; ++l)
-          value.push_back(normal[l]);
-      }
-    const std::size_t at = value.size();
-    value.resize(at + (result.is_plane ? 1 : dim) * M::n, 0.);
-    std::array<double, M::n> monomials;
-    for (const auto &p : points)
-      {
-        M::evaluate(p.point - result.centre, monomials);
-        if (result.is_plane)
-          for (unsigned int m = 0; m < M::n; ++m)
-            value[at + m] += (p.area * normal) * monomials[m];
-        else
-          for (unsigned int l = 0; l < dim; ++l)
-            for (unsigned int m = 0; m < M::n; ++m)
-              value[at + l * M::n + m] += p.area[l] * monomials[m];
-      }
-    list.push_back(result);
+          if (cell->at_boundary(f) == at_boundary)
+            act(cell, f);
+    };
+    visit(false, [&](const Cell &cell, const unsigned int f) { builder.add_inner_faces(cell, f); });
+    n_inner = list.size();
+    builder.add_open_faces();
+    first_at_boundary = list.size();
+    visit(true, [&](const Cell &cell, const unsigned int f) { builder.add_boundary_face(cell, f); });
   }
 
   template <int dim>

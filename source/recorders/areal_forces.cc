@@ -55,7 +55,7 @@ namespace perideal
       const bool bonds_whole = !can_break(parameters) && parameters.precracks.cracks.empty();
       const auto solid_of    = solids_of_model(body);
       std::unique_ptr<const Model> model;
-      if (bonds_whole && !parameters.model.is_linear_only())
+      if (bonds_whole && !parameters.model.has_cell_strains())
         model = create_model<dim>(parameters.model, body.mesh->thickness);
       auto result = std::make_unique<ArealForceDensity<dim>>(
         *body.nodes,
@@ -87,7 +87,7 @@ namespace perideal
 
       void record(const Step<dim> &, const Record &record) override
       {
-        const bool  by_strain = problem.parameters.model.is_linear_only();
+        const bool  by_strain = problem.parameters.model.has_cell_strains();
         const auto  stress    = points->needs_stress() ? stress_of_nodes() : Stresses();
         const auto  tractions = points->evaluate(problem.state.displacement, stress);
         const char *axes[]    = {"x", "y", "z"};
@@ -134,7 +134,7 @@ namespace perideal
       {
         const Body<dim>         &body           = problem.body;
         const DiscreteBody<dim> &discretisation = problem.discretisation;
-        if (!problem.parameters.model.is_linear_only())
+        if (!problem.parameters.model.has_cell_strains())
           return problem.force ? partial_stress<dim>(*discretisation.families, *problem.force) :
                                  partial_stress<dim>(*discretisation.families, *discretisation.bonds);
         Stresses result;

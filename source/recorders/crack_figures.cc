@@ -38,7 +38,7 @@ namespace perideal
     , tracker(tracker)
   {
     if constexpr (dim == 2)
-      if (kind.has_iterations && problem.parameters.cracks.energy_release_rates)
+      if (!kind.has_motion && problem.parameters.cracks.energy_release_rates)
         driving = std::make_unique<CrackDriving>(problem);
     for (const CrackText &text : problem.parameters.cracks.cracks)
       {

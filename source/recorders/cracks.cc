@@ -25,11 +25,15 @@ namespace perideal
       {
       }
 
-      void start(Json &) override { tracker.start(problem.force->cut_share()); }
+      void start(Json &) override
+      {
+        tracker.start(problem.force ? problem.force->cut_share() :
+                                      std::vector<double>(problem.body.nodes->size(), 0.));
+      }
 
       void observe(const Step<dim> &step, const Record &) override
       {
-        if (step.newly_broken > 0 || kind.has_iterations)
+        if (problem.force && (step.newly_broken > 0 || kind.has_iterations))
           tracker.update(step.time, total_damage(*problem.force));
       }
 

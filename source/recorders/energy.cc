@@ -18,9 +18,10 @@ namespace perideal
     class EnergyRecorder : public Recorder<dim>
     {
     public:
-      EnergyRecorder(const RunKind &kind, const bool with_contact)
+      EnergyRecorder(const RunKind &kind, const bool with_contact, const bool with_zone)
         : kind(kind)
         , with_contact(with_contact)
+        , with_zone(with_zone)
       {
       }
 
@@ -36,6 +37,8 @@ namespace perideal
         const bool is_nonlinear = kind.has_motion || kind.has_iterations;
         if (is_nonlinear)
           row.add("dissipated energy [J]", energy.dissipated);
+        if (with_zone)
+          row.add("switched energy [J]", energy.switched);
         if (kind.has_motion)
           row.add("damped energy [J]", energy.damped);
         row.add("external work [J]", energy.external);
@@ -60,6 +63,8 @@ namespace perideal
           }
         if (is_nonlinear)
           summary["dissipated"] = energy.dissipated;
+        if (with_zone)
+          summary["switched"] = energy.switched;
         if (kind.has_motion)
           summary["damped"] = energy.damped;
         summary["external"]      = energy.external;
@@ -101,7 +106,7 @@ namespace perideal
 
     private:
       const RunKind kind;
-      const bool    with_contact;
+      const bool    with_contact, with_zone;
       /// [J]
       double worst = 0, largest = 0;
       /// [-]
@@ -112,7 +117,8 @@ namespace perideal
   template <int dim>
   std::unique_ptr<Recorder<dim>> make_energy_recorder(Problem<dim> &problem, const RunKind &kind)
   {
-    return std::make_unique<EnergyRecorder<dim>>(kind, kind.has_motion && has_contact(problem.parameters));
+    return std::make_unique<EnergyRecorder<dim>>(
+      kind, kind.has_motion && has_contact(problem.parameters), has_fracture_zone(problem.parameters));
   }
 
   PERIDEAL_INSTANTIATE(make_energy_recorder)

@@ -16,8 +16,8 @@ namespace perideal
                                           const double               time_step,
                                           const Start                start)
     : bonds(bonds)
-    , held(held)
     , loads(loads)
+    , held{held}
     , mass(mass)
     , scheme{damping, time_step, start}
   {
@@ -34,6 +34,37 @@ namespace perideal
   }
 
   template <int dim>
+  void ExplicitDynamics<dim>::move_faces(FaceValues<dim> &values)
+  {
+    held.faces = &values;
+    held.moved.assign(values.entries().size(), dealii::Tensor<1, dim>());
+    values.set_values(held.moved);
+    // What velocities sum up to is found as it was: step by step.
+    for (std::uint64_t step = 0; step < n_steps; ++step)
+      {
+        values.prepare_step(loads, step * scheme.time_step, scheme.time_step);
+        for (std::size_t e = 0; e < held.moved.size(); ++e)
+          held.moved[e] = values.entries()[e].increment;
+        values.move();
+      }
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::work_of_faces()
+  {
+    held.faces->prepare_step(loads, time(), scheme.time_step);
+    const auto  force   = bonds.support_forces();
+    const auto &entries = held.faces->entries();
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      {
+        if (n_steps > 0)
+          own.external_work += 0.5 * (force[e] * held.moved[e]);
+        held.moved[e] = entries[e].increment;
+        own.next_external_work += 0.5 * (force[e] * held.moved[e]);
+      }
+  }
+
+  template <int dim>
   void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
   {
     bonds.compute(work.force, displacement);
@@ -45,6 +76,7 @@ namespace perideal
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
         velocity.local_element(k) -=
           0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
+    breaks.switched += bonds.switched_energy(velocity, scheme.time_step);
     const SofteningBonds &softening = bonds.softening_bonds();
     if (softening.softens() ? softening.any_now(displacement.get_mpi_communicator()) : breaks.now > 0)
       breaks.energy += bonds.released_energy(velocity, scheme.time_step);
@@ -52,8 +84,8 @@ namespace perideal
     work.earlier_velocity.swap(velocity);
     if (added.damping)
       added.damping->compute(work.relative_drag, work.earlier_velocity, bonds);
-    held.set_velocities(loads, time(), scheme.time_step, displacement, velocity);
-    const std::uint8_t *is_held = held.mask().data();
+    held.nodes.set_velocities(loads, time(), scheme.time_step, displacement, velocity);
+    const std::uint8_t *is_held = held.nodes.mask().data();
     const double *f = work.force.begin(), *p = external.begin(), *before = work.earlier_velocity.begin();
     const double *relative = added.damping ? work.relative_drag.begin() : nullptr;
     double       *after = velocity.begin(), *support = work.support_force.begin();
@@ -81,12 +113,16 @@ namespace perideal
     own.damped += n_steps == 0 ? 0. : own.next_damped + 0.5 * scheme.time_step * damped_before;
     own.next_external_work = 0.5 * scheme.time_step * work_after;
     own.next_damped        = 0.5 * scheme.time_step * damped_after;
+    if (held.faces)
+      work_of_faces();
   }
 
   template <int dim>
   void ExplicitDynamics<dim>::advance()
   {
     displacement.add(scheme.time_step, velocity);
+    if (held.faces)
+      held.faces->move();
     ++n_steps;
   }
 
@@ -98,6 +134,7 @@ namespace perideal
     state.add_value("number of steps", n_steps);
     state.add_value("number of broken bonds", breaks.total);
     state.add_value("dissipated energy", breaks.energy);
+    state.add_value("switched energy", breaks.switched);
     state.add_sum("damped energy", own.damped);
     state.add_sum("external work", own.external_work);
     state.add_sum("damped energy to come", own.next_damped);
@@ -114,6 +151,7 @@ namespace perideal
     result.strain     = bonds.strain_energy();
     result.contact    = added.contact ? added.contact->energy() : 0.;
     result.dissipated = breaks.energy;
+    result.switched   = breaks.switched;
     result.damped     = sum(own.damped, communicator);
     result.external   = sum(own.external_work, communicator);
     return result;

@@ -10,13 +10,19 @@ namespace perideal::test
 {
   /// Gradients and their moments of the cells of a mesh, of one material. Collective.
   template <int dim>
-  std::shared_ptr<const GradientMoments<dim>> make_moments(
-    const Mesh<dim> &mesh, const Nodes<dim> &nodes, const std::shared_ptr<const FaceValues<dim>> &values)
+  std::shared_ptr<const GradientMoments<dim>>
+  make_moments(const Mesh<dim>                              &mesh,
+               const Nodes<dim>                             &nodes,
+               const std::shared_ptr<const FaceValues<dim>> &values,
+               const BondPredicate<dim>                     &is_cut  = {},
+               const CellUnknown                             unknown = CellUnknown::mean)
   {
-    const auto polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, nodes);
+    const auto polynomials = std::make_shared<const CellPolynomials<dim>>(
+      mesh, nodes, typename CellPolynomials<dim>::Stiffness(), is_cut, unknown);
     return std::make_shared<const GradientMoments<dim>>(
       polynomials,
-      std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; }),
+      std::make_shared<const FaceMoments<dim>>(
+        mesh, polynomials->graph(), [](const auto) { return 1.; }, is_cut),
       values,
       nodes.communicator);
   }
@@ -27,12 +33,13 @@ namespace perideal::test
   make_consistent_operator(const std::shared_ptr<const Families<dim>>        &families,
                            const std::shared_ptr<const GradientMoments<dim>> &moments,
                            const Consistent<dim>                             &model,
-                           const SolidOf<dim>                                &solid_of)
+                           const SolidOf<dim>                                &solid_of,
+                           const BondPredicate<dim>                          &is_cut = {})
   {
     return std::make_shared<ConsistentOperator<dim>>(
       families,
       moments,
-      std::make_shared<ConsistentBonds<dim>>(families, moments->cell_polynomials(), model, solid_of),
+      std::make_shared<ConsistentBonds<dim>>(families, moments->cell_polynomials(), model, solid_of, is_cut),
       solid_of);
   }
 } // namespace perideal::test

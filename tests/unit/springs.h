@@ -38,7 +38,8 @@ namespace perideal::test
     std::vector<std::pair<std::string, std::string>> result;
     for (const auto &[name, model] : ModelChoice::list())
       for (const FormTraits &form : model.forms)
-        if (!model.has_law && (form.solvers.dynamics || !may_move))
+        if (!model.has_law &&
+            (!may_move || (form.solvers.dynamics && form.discretisation == Discretisation::families)))
           result.emplace_back(name, form.name);
     return result;
   }

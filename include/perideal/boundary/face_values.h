@@ -47,6 +47,8 @@ namespace perideal
 
     /// Finds how far the values have to move until a time, without moving them.
     void prepare(const Loads<dim> &loads, const double time);
+    /// The same for a step of motion, where velocities are prescribed too.
+    void prepare_step(const Loads<dim> &loads, const double time, const double time_step);
     /// Moves the values by their increments.
     void move();
     /// Puts the values of all entries back [m], without increments.

@@ -2,6 +2,7 @@
 #ifndef perideal_materials_linear_model_h
 #define perideal_materials_linear_model_h
 
+#include <perideal/geometry/bond_predicate.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/parameters/elastic_solid.h>
 
@@ -17,10 +18,6 @@ namespace perideal
   /// The solid of a material id.
   template <int dim>
   using SolidOf = std::function<ElasticSolid<dim>(const dealii::types::material_id)>;
-
-  /// Whether something is true of the bond between two positions, in either order.
-  template <int dim>
-  using BondPredicate = std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)>;
 
   /**
    * One family as a material sees it. Arrays run over its members.

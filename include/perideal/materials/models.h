@@ -93,7 +93,7 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm);
 
-    /// Whether bonds are those of linear statics, move or follow load steps, or break or are cut.
+    /// Whether bonds are those of linear statics, move or follow load steps, or break.
     enum class Use
     {
       statics,
@@ -110,6 +110,11 @@ namespace perideal
 
     Discretisation discretisation() const { return form_traits().discretisation; }
 
+    /// The model of the bonds that the consistent form turns into where cracks may grow, of resolved
+    /// parameters: of the model's form for this, with the influence function of that form where the
+    /// consistent form has its own.
+    ModelParameters in_zone() const;
+
     /// The name of the chosen form; empty where the model has one only.
     std::string form_name() const { return has_forms() ? form : std::string(); }
 
@@ -121,6 +126,9 @@ namespace perideal
 
     /// Bonds that pull sideways, and do not turn freely.
     bool is_tensor_involved() const { return model->has_bond_tensors; }
+
+    /// Has strains from the faces of cells, and no force that is one of bonds alone.
+    bool has_cell_strains() const { return is_consistent() || has_surface_cure(); }
 
     /// Bonds with what they lack at surfaces, by the face gradient.
     bool has_surface_cure() const { return form_traits().has_surface_cure; }

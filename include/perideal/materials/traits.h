@@ -24,7 +24,7 @@ namespace perideal
    *
    * - families: from the bonds of its family.
    * - faces: from the face gradient of its cell (materials/consistent.h). Every node must have a cell then:
-   *   fictitious nodes and nodes on the surface have none, and no crack cuts a face. Displacements and
+   *   fictitious nodes and nodes on the surface have none, and no crack grows. Displacements and
    *   tractions are taken at faces, the horizon may have the shape of the cells, and bonds only stabilise,
    *   for which whole cells serve.
    */
@@ -103,10 +103,12 @@ namespace perideal
     std::vector<FormTraits> forms;
 
     /// Which of them "automatic" stands for: in linear statics, in motion and along load steps, and where
-    /// bonds break or are cut.
+    /// bonds break.
     struct DefaultForms
     {
       std::string statics, motion, failure;
+      /// The form of the bonds that the consistent form turns into where cracks may grow; empty: it has none.
+      std::string in_zone = {};
     };
     DefaultForms default_forms;
 

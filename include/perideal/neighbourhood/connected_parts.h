@@ -2,11 +2,11 @@
 #ifndef perideal_neighbourhood_connected_parts_h
 #define perideal_neighbourhood_connected_parts_h
 
+#include <perideal/geometry/bond_predicate.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/nodes/nodes.h>
 
-#include <functional>
 #include <vector>
 
 namespace perideal
@@ -21,10 +21,10 @@ namespace perideal
   {
     /// Collective.
     /// @param is_cut whether a precrack cuts the bond between two places; empty: none does
-    ConnectedParts(const Mesh<dim>     &mesh,
-                   const Nodes<dim>    &nodes,
-                   const Families<dim> &families,
-                   const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut);
+    ConnectedParts(const Mesh<dim>          &mesh,
+                   const Nodes<dim>         &nodes,
+                   const Families<dim>      &families,
+                   const BondPredicate<dim> &is_cut);
 
     unsigned int n_parts = 1, n_bodies = 1;
     /// Of owned nodes, numbered from 0; empty in a body of one part.
@@ -36,9 +36,9 @@ namespace perideal
     /// The part of each coarse cell, by index.
     static std::vector<unsigned int> parts_of_coarse_cells(const Mesh<dim> &mesh);
     /// Makes bodies of the parts that bonds join.
-    void join(const Families<dim>                                                               &families,
-              const std::vector<unsigned int>                                                   &part_of_node,
-              const std::function<bool(const dealii::Point<dim> &, const dealii::Point<dim> &)> &is_cut);
+    void join(const Families<dim>             &families,
+              const std::vector<unsigned int> &part_of_node,
+              const BondPredicate<dim>        &is_cut);
   };
 } // namespace perideal
 

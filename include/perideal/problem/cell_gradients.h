@@ -19,7 +19,8 @@ namespace perideal
   struct CellGradients
   {
     /// Makes what belongs to the model, unless it is there. Collective.
-    void make(const Body<dim> &body);
+    /// @param is_cut bonds that precracks cut; empty: none. The linear gradient reaches across them.
+    void make(const Body<dim> &body, const BondPredicate<dim> &is_cut);
 
     /// Makes the moments, of values prescribed at faces. Collective.
     void make_moments(const Body<dim> &body, const std::shared_ptr<const FaceValues<dim>> &prescribed);

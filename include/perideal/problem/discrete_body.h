@@ -67,14 +67,14 @@ namespace perideal
     /// Where the scene needs gradients: the consistent form, strains and stresses do.
     CellGradients<dim> gradients;
 
-    /// What the model made of the bonds; the consistent form has no such.
+    /// What the model made of the bonds; of the consistent form of those that may break, else none.
     std::unique_ptr<LinearModel<dim>>  model;
     std::shared_ptr<BondWeights<dim>>  weights;
     std::shared_ptr<BondOperator<dim>> bonds;
     /// What became of the families, of all ranks and by owned node.
     FamilyCounts              counts;
     std::vector<FamilyReport> reports;
-    /// Of the correspondence model.
+    /// Of the correspondence model and the consistent form.
     LawsByMaterial<dim> laws;
     /// What families without weights have in their place: of the consistent form, of correspondence.
     std::shared_ptr<ConsistentBonds<dim>>    consistent_bonds;
@@ -85,8 +85,12 @@ namespace perideal
   private:
     void weigh_nodes(const Body<dim> &body, const BondPredicate<dim> &is_cut);
     void weigh_gauss_points(const Body<dim> &body);
-    void weigh_faces(const Body<dim> &body, const std::shared_ptr<FaceValues<dim>> &face_values);
+    void weigh_faces(const Body<dim>                        &body,
+                     const std::shared_ptr<FaceValues<dim>> &face_values,
+                     const BondPredicate<dim>               &is_cut);
     void weigh_correspondence(const Body<dim> &body);
+    /// Points of this rank where faces have prescribed values, and the spacing of their nodes.
+    std::vector<std::pair<dealii::Point<dim>, double>> held_faces() const;
   };
 
   /// Returns the solids as the model of the scene takes them: bond-based ones have a Poisson's ratio of

@@ -136,6 +136,9 @@ namespace perideal
   /// Returns whether bonds of the scene may break.
   bool can_break(const SceneParameters &parameters);
 
+  /// Whether the consistent form turns into bonds where cracks grow.
+  bool has_fracture_zone(const SceneParameters &parameters);
+
   /// Returns whether nodes repel each other that come too close.
   bool has_contact(const SceneParameters &parameters);
 

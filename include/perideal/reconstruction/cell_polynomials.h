@@ -2,6 +2,7 @@
 #ifndef perideal_reconstruction_cell_polynomials_h
 #define perideal_reconstruction_cell_polynomials_h
 
+#include <perideal/geometry/bond_predicate.h>
 #include <perideal/nodes/cell_graph.h>
 #include <perideal/reconstruction/polynomial_closure.h>
 
@@ -13,6 +14,13 @@
 
 namespace perideal
 {
+  /// What the unknown of a cell is: the mean of a field over it, or the value at its centroid.
+  enum class CellUnknown
+  {
+    mean,
+    value
+  };
+
   /**
    * Fits a quadratic polynomial to the means of a field over each cell and the cells around it,
    *
@@ -23,12 +31,16 @@ namespace perideal
    *     c_t = sum_k R_kt (u_k - u_i),
    *
    * of weighted least squares with the means of the monomials over each cell: exact for quadratic fields on
-   * any mesh.
+   * any mesh. Or it fits values at the centroids, in the same way without means of m_t: so in motion, where
+   * the kinetic energy of a plane wave is that of masses with these values up to fourth order, of masses with
+   * the means up to second.
    *
    * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies
    * at the boundary or at another material, those around the cell behind it. Where they do not determine all
    * quadratics it takes one ring more; what no ring determines is left out: linear terms are fitted first,
    * quadratics to what these leave. closure() says what a displacement has in its place.
+   *
+   * A crack ends the body as its boundary does: no stencil reaches across.
    *
    * Nodes are numbered as in the cell graph.
    */
@@ -42,8 +54,13 @@ namespace perideal
     using Stiffness = std::function<dealii::SymmetricTensor<4, dim>(dealii::types::material_id)>;
 
     /// Collective.
-    /// @param stiffness of displacements whose polynomials are closed; without it, none is
-    CellPolynomials(const Mesh<dim> &mesh, const Nodes<dim> &nodes, const Stiffness &stiffness = {});
+    /// @param stiffness of displacements whose polynomials are closed, which needs means; without it, none is
+    /// @param is_cut whether a crack separates the cells of two nodes; empty: none does
+    CellPolynomials(const Mesh<dim>          &mesh,
+                    const Nodes<dim>         &nodes,
+                    const Stiffness          &stiffness = {},
+                    const BondPredicate<dim> &is_cut    = {},
+                    const CellUnknown         unknown   = CellUnknown::mean);
 
     const CellGraph<dim> &graph() const { return cells; }
 
@@ -64,13 +81,13 @@ namespace perideal
     {
       std::array<double, Monomials<dim>::n> monomial;
       Monomials<dim>::evaluate(point - centroid[i], monomial);
-      const auto mean = means(i);
-      double     own  = 1.;
+      const auto of_unknown = at_unknown(i);
+      double     own        = 1.;
       for (BondIndex k = row[i]; k < row[i + 1]; ++k)
         {
           double weight = 0;
           for (unsigned int t = 0; t < n_terms; ++t)
-            weight += coefficient[k][t] * (monomial[1 + t] - (t < dim ? 0. : mean[t - dim]));
+            weight += coefficient[k][t] * (monomial[1 + t] - (t < dim ? 0. : of_unknown[t - dim]));
           own -= weight;
           visit(column[k], weight);
         }
@@ -84,6 +101,12 @@ namespace perideal
       for (unsigned int p = 0; p < result.size(); ++p)
         result[p] = moments[i][SymmetricPairs<dim>::axes(p).first][SymmetricPairs<dim>::axes(p).second];
       return result;
+    }
+
+    /// What the unknown of a cell is of the quadratic monomials: their means, or zero at the centroid [m^2].
+    std::array<double, Monomials<dim>::n_quadratic> at_unknown(const LocalIndex i) const
+    {
+      return unknown == CellUnknown::mean ? means(i) : std::array<double, Monomials<dim>::n_quadratic>{};
     }
 
     /// Owned cells whose stencil lies in a plane (a body one cell thick), where linear fields are not exact.
@@ -101,6 +124,7 @@ namespace perideal
     class Builder;
 
     CellGraph<dim>                               cells;
+    CellUnknown                                  unknown;
     std::vector<dealii::SymmetricTensor<2, dim>> moments;
     std::vector<dealii::Point<dim>>              centroid;
     std::vector<double>                          volume;

@@ -2,6 +2,7 @@
 #ifndef perideal_reconstruction_face_moments_h
 #define perideal_reconstruction_face_moments_h
 
+#include <perideal/geometry/bond_predicate.h>
 #include <perideal/nodes/cell_graph.h>
 #include <perideal/reconstruction/boundary_point.h>
 #include <perideal/reconstruction/monomials.h>
@@ -20,7 +21,8 @@ namespace perideal
    * with their normal and with their first moment. On plane faces they are n_l t_m with one normal; bilinear
    * ones have three such rows.
    *
-   * A face between cells of different sizes is one face for each of the finer cells.
+   * A face between cells of different sizes is one face for each of the finer cells. One that a crack crosses
+   * is open: two faces, each of the cell on its side.
    */
   template <int dim>
   class FaceMoments
@@ -31,7 +33,8 @@ namespace perideal
     /// A face, its normal out of the first cell.
     struct Face
     {
-      /// Local nodes of the graph, of which one at least is owned; the second is `none` at the boundary.
+      /// Local nodes of the graph, of which one at least is owned; the second is `none` at open faces and the
+      /// boundary.
       std::array<LocalIndex, 2> node;
       /// Shares of the two cells' polynomials in the value at the face.
       std::array<double, 2> share;
@@ -45,13 +48,18 @@ namespace perideal
 
     /// @param stiffness of a material, in any unit: at a face between two materials the stiffer one counts
     /// more
+    /// @param is_cut whether a crack separates the cells of two nodes; empty: none does
     FaceMoments(const Mesh<dim>                                               &mesh,
                 const CellGraph<dim>                                          &graph,
-                const std::function<double(const dealii::types::material_id)> &stiffness);
+                const std::function<double(const dealii::types::material_id)> &stiffness,
+                const BondPredicate<dim>                                      &is_cut = {});
 
-    /// Inner faces, then those at the boundary in the order of their number among the boundary points.
+    /// Inner faces, then open ones, then those at the boundary in the order of their number among the
+    /// boundary points.
     const std::vector<Face>   &faces() const { return list; }
     std::size_t                n_inner_faces() const { return n_inner; }
+    std::size_t                n_open_faces() const { return first_at_boundary - n_inner; }
+    std::size_t                first_boundary_face() const { return first_at_boundary; }
     const std::vector<double> &values() const { return value; }
 
     /// Three Gauss points in each direction of every face at the boundary; those of boundary face b are
@@ -62,10 +70,10 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
-    void add(const Cell &cell, const unsigned int f, const Face &face, const double thickness);
+    class Builder;
 
     std::vector<Face>               list;
-    std::size_t                     n_inner = 0;
+    std::size_t                     n_inner = 0, first_at_boundary = 0;
     std::vector<double>             value;
     std::vector<BoundaryPoint<dim>> points;
   };

@@ -36,9 +36,12 @@ namespace perideal
       dealii::SymmetricTensor<2, dim> second_moment;
     };
 
-    /// @param own second moment of the cell in the middle
+    /// @param own second moment of the cell in the middle, or zero where values stand for means
     /// @param others without that cell
-    void reinit(const dealii::SymmetricTensor<2, dim> &own, const std::vector<Cell> &others);
+    /// @param size second moment of the cell in the middle, by which a layer of cells is told from two
+    void reinit(const dealii::SymmetricTensor<2, dim> &own,
+                const std::vector<Cell>               &others,
+                const dealii::SymmetricTensor<2, dim> &size);
 
     /// Whether the cells determine all linear terms, and all terms.
     bool is_solid() const { return solid; }
@@ -75,7 +78,7 @@ namespace perideal
     using Directions =
       Eigen::Matrix<double, n_quadratic, Eigen::Dynamic, Eigen::ColMajor, n_quadratic, n_quadratic>;
 
-    void      find_metric(const std::vector<Cell> &others);
+    void      find_metric(const std::vector<Cell> &others, const dealii::SymmetricTensor<2, dim> &size);
     void      fill_rows(const dealii::SymmetricTensor<2, dim> &own, const std::vector<Cell> &others);
     Quadratic inverse_of(const Quadratic &gram, const double size);
     void      solve();

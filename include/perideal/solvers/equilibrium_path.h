@@ -194,6 +194,7 @@ namespace perideal
       std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
       EnergyBudget                        energy;
       double                              largest_load = 0;
+      unsigned int                        version      = 0;
     };
     Equilibrium last;
 

@@ -3,6 +3,7 @@
 #define perideal_solvers_explicit_dynamics_h
 
 #include <perideal/boundary/dirichlet_nodes.h>
+#include <perideal/boundary/face_values.h>
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/force/contact_force.h>
 #include <perideal/operators/force/relative_damping.h>
@@ -24,10 +25,15 @@ namespace perideal
     double contact = 0;
     /// Set free by breaking bonds; taken by damping; put in by loads and supports.
     double dissipated = 0, damped = 0, external = 0;
+    /// By which bonds store less than the cells whose place they take in a FractureZone.
+    double switched = 0;
 
     /// Returns the energy balance error [J]: the energy put in less the energy there is and the energy lost;
     /// zero but for the error of the integration.
-    double imbalance() const { return external - (kinetic + strain + contact + dissipated + damped); }
+    double imbalance() const
+    {
+      return external - (kinetic + strain + contact + dissipated + damped + switched);
+    }
   };
 
   /**
@@ -62,6 +68,10 @@ namespace perideal
     void set_contact(ContactForce<dim> *force) { added.contact = force; }
     void set_relative_damping(RelativeDamping<dim> *relative);
 
+    /// Moves prescribed values at faces, which the force reads, besides the held nodes: from zero to where
+    /// they are at the present time. They must outlive this object.
+    void move_faces(FaceValues<dim> &values);
+
     /// Forces, velocities of the next half step and energies at the present time;
     /// to be followed by advance(). Collective.
     /// @param external force of the loads [N]
@@ -80,19 +90,35 @@ namespace perideal
     EnergyBudget energy() const;
     /// Momentum of the body half a step later, after evaluate() [kg m/s]. Collective.
     dealii::Tensor<1, dim> momentum() const;
-    /// Forces of the supports at the present time [N], zero in free components.
+    /// Forces of the supports on nodes at the present time [N], zero in free components.
     const NodalVector &reaction() const { return work.support_force; }
-    GlobalIndex        n_broken() const { return breaks.total; }
-    GlobalIndex        n_broken_now() const { return breaks.now; }
+    /// Forces of the supports at the prescribed faces at the present time [N], by entry.
+    std::vector<dealii::Tensor<1, dim>> face_reaction() const { return bonds.support_forces(); }
+    GlobalIndex                         n_broken() const { return breaks.total; }
+    GlobalIndex                         n_broken_now() const { return breaks.now; }
 
     /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),
     /// half a step after it.
     NodalVector displacement, velocity;
 
   private:
-    BondForce<dim>            &bonds;
-    const DirichletNodes<dim> &held;
-    const Loads<dim>          &loads;
+    /// Adds the work of supports at faces in the halves of a step before and after the present time, and
+    /// finds how far they go next.
+    void work_of_faces();
+
+    BondForce<dim>   &bonds;
+    const Loads<dim> &loads;
+
+    /// Nodes that are held, and prescribed values at faces, null without; how far these went in the last step
+    /// [m].
+    struct Held
+    {
+      const DirichletNodes<dim>          &nodes;
+      FaceValues<dim>                    *faces = nullptr;
+      std::vector<dealii::Tensor<1, dim>> moved = {};
+    };
+    Held held;
+
     const std::vector<double> &mass;
 
     struct Scheme
@@ -118,11 +144,11 @@ namespace perideal
     Work          work;
     std::uint64_t n_steps = 0;
 
-    /// Of all ranks: bonds broken, now and so far, and the energy that they set free.
+    /// Of all ranks: bonds broken, now and so far, the energy that they set free, and that switched.
     struct Breaks
     {
       GlobalIndex total = 0, now = 0;
-      double      energy = 0;
+      double      energy = 0, switched = 0;
     };
     Breaks breaks;
 

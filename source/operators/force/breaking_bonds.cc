@@ -18,6 +18,12 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  void BondForce<dim>::take_weights(const BondWeights<dim> &, const std::vector<double> &)
+  {
+    AssertThrow(false, dealii::ExcNotImplemented());
+  }
+
+  template <int dim>
   BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
                                     const BondList                             &bonds,
                                     const bool                                  has_sums)
@@ -288,5 +294,6 @@ namespace perideal
            ghosted.memory_consumption();
   }
 
+  PERIDEAL_INSTANTIATE_CLASS(BondForce)
   PERIDEAL_INSTANTIATE_CLASS(BreakingBonds)
 } // namespace perideal

@@ -17,7 +17,7 @@ namespace perideal
     : BreakingBonds<dim>(families, bonds->list(), false)
     , moments(moments)
     , bonds(bonds)
-    , points(std::make_shared<const CellPoints<dim>>(moments->cell_polynomials()))
+    , points(std::make_shared<const CellPoints<dim>>(moments->cell_polynomials(), bonds->shares()))
     , laws(laws)
     , has_small_strain(
         std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))

@@ -16,7 +16,7 @@ namespace perideal
   FamilyForce<dim, n_sums, own_force_weights>::FamilyForce(const Weights &from)
     : BreakingBonds<dim>(from.families, from.bonds, n_sums > 0)
   {
-    take(from);
+    FamilyForce::take_weights(from, {});
     if (n_sums > 0)
       ghosted_states.reinit(families->make_partitioner(n_sums));
     for (unsigned int a = 0; a < n_sums; ++a)
@@ -24,21 +24,6 @@ namespace perideal
         sums[a].resize(families->n_local());
         state[a].resize(families->n_local());
       }
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::take(const Weights &from)
-  {
-    unit = from.largest();
-    for (double *size : {&unit.sum, &unit.force, &unit.stiffness})
-      {
-        *size = dealii::Utilities::MPI::max(*size, families->communicator);
-        if (*size == 0)
-          *size = 1.;
-      }
-    weights.copy_from(from, unit);
-    map    = from.map;
-    energy = from.energy;
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

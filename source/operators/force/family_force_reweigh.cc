@@ -20,6 +20,29 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::take_weights(const BondWeights<dim>    &scaled,
+                                                                 const std::vector<double> &share)
+  {
+    // They become single precision.
+    const auto &from = static_cast<const Weights &>(scaled);
+    unit             = from.largest();
+    for (double *size : {&unit.sum, &unit.force, &unit.stiffness})
+      {
+        *size = dealii::Utilities::MPI::max(*size, families->communicator);
+        if (*size == 0)
+          *size = 1.;
+      }
+    weights.copy_from(from, unit);
+    map    = from.map;
+    energy = from.energy;
+    if (share.empty())
+      return;
+    for (const auto &bond : this->lost)
+      clear_weights(bond.slot);
+    regions.keep_awake([&](const LocalIndex i) { return share[i] > 0; });
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
   bool FamilyForce<dim, n_sums, own_force_weights>::any_too_long() const
   {
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
@@ -65,12 +88,14 @@ namespace perideal
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     reweigh(ends, [&](const LocalIndex i, const LocalIndex j) { return !carries_force(bonds.find(i, j)); });
-    take(*current_weights);
+    take_weights(*current_weights, {});
   }
 
 #define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::reweigh_as_bonds_break(                         \
     const std::shared_ptr<const BondWeights<dim>> &, const BondForce<dim>::Reweigh &);                       \
+  template void FamilyForce<dim, n_sums, own_force_weights>::take_weights(const BondWeights<dim> &,          \
+                                                                          const std::vector<double> &);      \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_and_reweigh(NodalVector &);             \
   template void FamilyForce<dim, n_sums, own_force_weights>::reweigh_ends(const std::size_t);
   PERIDEAL_FOR_FAMILY_SHAPES(PERIDEAL_INSTANTIATE_SHAPE)

@@ -49,6 +49,18 @@ namespace perideal
       }
   }
 
+  void RestRegions::keep_awake(const std::function<bool(const LocalIndex)> &counts)
+  {
+    for (auto *blocks : {&moved, &in_sums, &in_forces})
+      std::fill(blocks->begin(), blocks->end(), 0);
+    for (LocalIndex i = 0; i < n_local; ++i)
+      if (counts(i))
+        moved[block_of(i)] = 1;
+    spread();
+    // Nothing else is looked for.
+    all_awake = true;
+  }
+
   LocalIndex RestRegions::block_of(const LocalIndex node) const
   {
     return node < n_owned ? node / block_size : n_row_blocks + (node - n_owned) / block_size;

@@ -52,9 +52,10 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
         const auto  &C      = solids[solid_of_node[i]];
-        const double volume = moments->cell_polynomials().volumes()[i];
-        NodeRecord  *g = moments->gradient(i), *h = moments->moment(i);
-        const auto   stress_of = [&](const Pairs &strain, Pairs &stress) {
+        const double share  = bonds->shares()->of(i),
+                     volume = share * moments->cell_polynomials().volumes()[i];
+        NodeRecord *g = moments->gradient(i), *h = moments->moment(i);
+        const auto  stress_of = [&](const Pairs &strain, Pairs &stress) {
           for (unsigned int p = 0; p < n_pairs; ++p)
             {
               stress[p] = 0.;
@@ -85,7 +86,7 @@ namespace perideal
                   continue;
                 const unsigned int m = a == k ? b : a;
                 for (unsigned int q = 0; q < n_pairs; ++q)
-                  stress[q] += inverse_moment[i][p] * of_moment[m][q];
+                  stress[q] += share * inverse_moment[i][p] * of_moment[m][q];
               }
             to_columns<dim>(stress, h + dim * k);
           }

@@ -176,7 +176,8 @@ namespace perideal
         visit([&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, row, k, m); });
         return;
       }
-    CellEnergy<dim> energy{moments->cell_polynomials().volumes()[i], {}, tensors[solid_of_node[i]]};
+    CellEnergy<dim> energy{
+      moments->cell_polynomials().volumes()[i], {}, bonds->shares()->of(i) * tensors[solid_of_node[i]]};
     for (unsigned int p = 0; p < n_pairs; ++p)
       {
         const auto [a, b]           = Symmetric::axes(p);

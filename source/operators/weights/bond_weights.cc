@@ -8,6 +8,13 @@
 namespace perideal
 {
   template <int dim>
+  std::shared_ptr<BondWeights<dim>> BondWeights<dim>::scaled(const std::vector<double> &) const
+  {
+    AssertThrow(false, dealii::ExcNotImplemented());
+    return {};
+  }
+
+  template <int dim>
   void BondWeights<dim>::visit_families(const SolidOf<dim>       &solid_of,
                                         const BondPredicate<dim> &is_cut,
                                         const VisitFamily        &visit)

@@ -30,7 +30,8 @@ namespace perideal
   ConsistentBonds<dim>::ConsistentBonds(const std::shared_ptr<const Families<dim>> &families,
                                         const CellPolynomials<dim>                 &polynomials,
                                         const Consistent<dim>                      &model,
-                                        const SolidOf<dim>                         &solid_of)
+                                        const SolidOf<dim>                         &solid_of,
+                                        const BondPredicate<dim>                   &is_cut)
     : families(families)
     , bonds(*families)
     , of_states(families->make_partitioner(4 * n_records))
@@ -49,11 +50,13 @@ namespace perideal
     position.resize(n_local, NodeRecord{});
     for (LocalIndex i = 0; i < n_local; ++i)
       position[i] = work.states[n_records * i];
-    weigh(model, solid_of);
+    weigh(model, solid_of, is_cut);
   }
 
   template <int dim>
-  void ConsistentBonds<dim>::weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of)
+  void ConsistentBonds<dim>::weigh(const Consistent<dim>    &model,
+                                   const SolidOf<dim>       &solid_of,
+                                   const BondPredicate<dim> &is_cut)
   {
     stiffness_of.assign(bonds.n_slots(), 0.);
     std::map<dealii::types::material_id, double> modulus_of;
@@ -68,7 +71,8 @@ namespace perideal
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
           const LocalIndex j = bonds.neighbour[k];
-          if (j == i || families->material[j] != families->material[i])
+          if (j == i || families->material[j] != families->material[i] ||
+              (is_cut && is_cut(families->position[i], families->position[j])))
             continue;
           const auto   bond          = families->position[j] - families->position[i];
           const double length_square = bond.norm_square(), modulus = modulus_of[families->material[i]];
@@ -76,6 +80,17 @@ namespace perideal
             model.bond_stiffness(length_square, distance_square(i, bond), families->volume[j], modulus) +
             model.bond_stiffness(length_square, distance_square(j, bond), families->volume[i], modulus);
         }
+  }
+
+  template <int dim>
+  void ConsistentBonds<dim>::set_shares(const std::vector<double> &of_nodes)
+  {
+    if (whole_stiffness.empty())
+      whole_stiffness = stiffness_of;
+    shares_of_cells->set(of_nodes);
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+        stiffness_of[k] = shares_of_cells->of_bond(i, bonds.neighbour[k]) * whole_stiffness[k];
   }
 
   template <int dim>
@@ -218,6 +233,8 @@ namespace perideal
   {
     return bonds.memory_consumption() + dealii::MemoryConsumption::memory_consumption(stiffness_of) +
            dealii::MemoryConsumption::memory_consumption(work.tension) +
+           dealii::MemoryConsumption::memory_consumption(whole_stiffness) +
+           shares_of_cells->memory_consumption() +
            (position.size() + work.states.size() + work.forces.size() + work.stresses.size()) *
              sizeof(NodeRecord);
   }

@@ -227,6 +227,23 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
+  std::shared_ptr<BondWeights<dim>>
+  FamilyWeights<dim, n_sums, own_force_weights>::scaled(const std::vector<double> &share) const
+  {
+    AssertThrow(will_change && !own_force_weights, dealii::ExcNotImplemented());
+    auto result           = std::make_shared<FamilyWeights>(*this);
+    result->end_stiffness = Ends();
+    for (std::size_t i = 0; i < map.entries.size(); ++i)
+      for (double &entry : result->map.entries[i])
+        entry *= share[i];
+    for (LocalIndex i = 0; i < this->bonds.n_rows(); ++i)
+      for (BondIndex slot = this->bonds.row[i]; slot < this->bonds.row[i + 1]; ++slot)
+        result->stiffness[slot] =
+          share[i] * end_stiffness.near[slot] + share[this->bonds.neighbour[slot]] * end_stiffness.far[slot];
+    return result;
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
   std::size_t FamilyWeights<dim, n_sums, own_force_weights>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;

@@ -119,7 +119,8 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           if (entries[e].condition[d] != FaceValues<dim>::free)
             of_face.mask[d] = 1.;
-        held[face_moments->boundary_points()[entries[e].point].face] = of_face;
+        held[face_moments->first_boundary_face() + face_moments->boundary_points()[entries[e].point].face] =
+          of_face;
       }
   }
 

@@ -58,10 +58,10 @@ namespace perideal
           }
         if (closed != closure.cells().end() && *closed == i)
           closure.close(closed++ - closure.cells().begin(), c);
-        Lanes      value = own;
-        const auto means = polynomials->means(i);
-        for (unsigned int p = 0; p < means.size(); ++p)
-          value -= means[p] * c[dim + p];
+        Lanes      value      = own;
+        const auto of_unknown = polynomials->at_unknown(i);
+        for (unsigned int p = 0; p < of_unknown.size(); ++p)
+          value -= of_unknown[p] * c[dim + p];
         NodeRecord *result = work.polynomial.data() + n_coefficients * i;
         lanes(result[0])   = value;
         for (unsigned int t = 0; t < n_terms; ++t)
@@ -115,7 +115,7 @@ namespace perideal
                            face.share[side],
                            polynomial);
         integrate<dim>(face.moments, face.is_plane, polynomial, sums);
-        if (!is_inner && next != held.end() && next->first == f - n_inner_faces)
+        if (!is_inner && next != held.end() && next->first == f)
           {
             const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
             for (unsigned int l = 0; l < dim; ++l)
@@ -201,7 +201,7 @@ namespace perideal
         Lanes              polynomial[n_coefficients];
         for (unsigned int side = 0; side < n_sides; ++side)
           add(face, side, sums);
-        if (n_sides == 1 && next != held.end() && next->first == f - n_inner_faces)
+        if (n_sides == 1 && next != held.end() && next->first == f)
           {
             const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
             for (unsigned int l = 0; l < dim; ++l)
@@ -237,12 +237,12 @@ namespace perideal
         const NodeRecord *acting   = work.polynomial.data() + n_coefficients * i;
         const Lanes       on_value = lanes(acting[0]) + lanes(work.value_force[i]);
         const Lanes       on_trace = (2. * polynomials->volumes()[i]) * lanes(work.trace_force[i]);
-        const auto        means    = polynomials->means(i);
+        const auto        means = polynomials->means(i), of_unknown = polynomials->at_unknown(i);
         Lanes             c[n_terms];
         for (unsigned int t = 0; t < n_terms; ++t)
           c[t] = lanes(acting[1 + t]);
         for (unsigned int p = 0; p < means.size(); ++p)
-          c[dim + p] += means[p] * (on_trace - on_value);
+          c[dim + p] += means[p] * on_trace - of_unknown[p] * on_value;
         if (closed != closure.cells().end() && *closed == i)
           closure.add_transposed(closed++ - closure.cells().begin(), c);
         Lanes own = on_value;

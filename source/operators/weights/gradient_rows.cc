@@ -57,8 +57,8 @@ namespace perideal
         if (faces[f].node[s] < n_owned)
           {
             Side side{f, s, {}};
-            if (f >= face_moments.n_inner_faces())
-              if (const auto of = held.find(f - face_moments.n_inner_faces()); of != held.end())
+            if (f >= face_moments.first_boundary_face())
+              if (const auto of = held.find(f - face_moments.first_boundary_face()); of != held.end())
                 side.held = of->second;
             sides[next[faces[f].node[s]]++] = side;
           }
@@ -125,12 +125,12 @@ namespace perideal
   void
   GradientRows<dim>::visit_maps(const LocalIndex i, const unsigned int component, const Visit &visit) const
   {
-    const auto visit_with_mean = [&](const LocalIndex node, Map &map) {
-      // The constant is the value at the centroid, of which the mean is the unknown.
-      const auto means = polynomials.means(node);
-      for (unsigned int p = 0; p < means.size(); ++p)
+    const auto visit_with_unknown = [&](const LocalIndex node, Map &map) {
+      // The constant is the value at the centroid, of which the mean may be the unknown.
+      const auto of_unknown = polynomials.at_unknown(node);
+      for (unsigned int p = 0; p < of_unknown.size(); ++p)
         for (unsigned int f = 0; f < dim + dim * dim; ++f)
-          map.of[1 + dim + p][f] -= means[p] * map.of[0][f];
+          map.of[1 + dim + p][f] -= of_unknown[p] * map.of[0][f];
       visit(node, map);
     };
     Map own{};
@@ -143,10 +143,10 @@ namespace perideal
             {
               Map of_other{};
               add_map(sides[s], 1 - sides[s].side, i, of_other);
-              visit_with_mean(other, of_other);
+              visit_with_unknown(other, of_other);
             }
         }
-    visit_with_mean(i, own);
+    visit_with_unknown(i, own);
   }
 
   template <int dim>
@@ -305,13 +305,13 @@ namespace perideal
         take_polynomial(other);
 
     row.value.assign(row.column.size(), 0.);
-    const auto means    = polynomials.means(i);
-    row.value[place[i]] = 1.;
+    const auto of_unknown = polynomials.at_unknown(i);
+    row.value[place[i]]   = 1.;
     visit_polynomial(i, [&](const LocalIndex column, const Terms &terms) {
-      for (unsigned int p = 0; p < means.size(); ++p)
+      for (unsigned int p = 0; p < of_unknown.size(); ++p)
         {
-          row.value[place[column]] -= means[p] * terms[dim + p];
-          row.value[place[i]] += means[p] * terms[dim + p];
+          row.value[place[column]] -= of_unknown[p] * terms[dim + p];
+          row.value[place[i]] += of_unknown[p] * terms[dim + p];
         }
     });
 

@@ -6,6 +6,8 @@
 #include <perideal/operators/system/constrained_operator.h>
 #include <perideal/parameters/elastic_constants.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include "bodies.h"
 #include "moments.h"
 #include "springs.h"
@@ -24,7 +26,20 @@ namespace
     std::string     model, form;
     PlaneAssumption assumption;
     double          poisson_ratio;
+    /// With a notch, and values in the place of means.
+    bool is_notched = false;
   };
+
+  /// A notch from the left side into a box.
+  template <int dim>
+  bool crosses_notch(const double height, const dealii::Point<dim> &a, const dealii::Point<dim> &b)
+  {
+    const double depth = 0.5;
+    if ((a[1] > height) == (b[1] > height))
+      return false;
+    const double share = (height - a[1]) / (b[1] - a[1]);
+    return a[0] + share * (b[0] - a[0]) < depth;
+  }
 
   /// Every model in every state it is offered for.
   template <int dim>
@@ -38,6 +53,11 @@ namespace
       else
         for (const auto assumption : {PlaneAssumption::plane_stress, PlaneAssumption::plane_strain})
           result.push_back({model.first, model.second, assumption, 0.3});
+    result.push_back({"extended ordinary",
+                      "consistent",
+                      dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain,
+                      0.3,
+                      true});
     return result;
   }
 
@@ -58,12 +78,22 @@ namespace
         const ElasticConstants own = parameters.constants_of_model(constants);
         return ElasticSolid<dim>(own);
       };
+      BondPredicate<dim> is_cut;
+      if (variant.is_notched)
+        // Two layers of cells or more on either side.
+        is_cut = [height = 0.47 * dealii::GridTools::compute_bounding_box(mesh.triangulation).side_length(1)](
+                   const auto &a, const auto &b) { return crosses_notch<dim>(height, a, b); };
       if (parameters.is_consistent())
         bonds = test::make_consistent_operator<dim>(
           body.families,
-          test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>()),
+          test::make_moments(mesh,
+                             body.nodes,
+                             std::make_shared<const FaceValues<dim>>(),
+                             is_cut,
+                             variant.is_notched ? CellUnknown::value : CellUnknown::mean),
           create_consistent<dim>(parameters, 3.01),
-          solid_of);
+          solid_of,
+          is_cut);
       else
         bonds = create_bond_operator<dim>(body.families, *create_model<dim>(parameters, 1.), solid_of);
       if (parameters.has_surface_cure())
@@ -124,8 +154,8 @@ namespace
     for (const auto &mesh : test::make_boxes<dim>())
       for (const Variant &variant : variants<dim>())
         {
-          SCOPED_TRACE(variant.model + ", " + variant.form +
-                       ", nu = " + std::to_string(variant.poisson_ratio));
+          SCOPED_TRACE(variant.model + ", " + variant.form + ", nu = " +
+                       std::to_string(variant.poisson_ratio) + (variant.is_notched ? ", notched" : ""));
           FreeBody<dim> free_body(*mesh, variant);
           property(free_body);
         }

@@ -81,7 +81,7 @@ namespace
   {
     const auto        moment = 1. / 12. * dealii::unit_symmetric_tensor<dim>();
     QuadraticFit<dim> fit;
-    fit.reinit(moment, two_layers<dim>(moment));
+    fit.reinit(moment, two_layers<dim>(moment), moment);
     ASSERT_EQ(fit.n_determined(), Monomials<dim>::n_quadratic - 1);
     // z^2 - z, z upwards: nothing at the middles of both layers.
     const auto undetermined = fit.undetermined();

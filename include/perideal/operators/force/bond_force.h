@@ -44,7 +44,7 @@ namespace perideal
                                       const CriticalStretch &first = {}) = 0;
 
     /// What softening has left of the bonds.
-    const SofteningBonds &softening_bonds() const { return softening; }
+    virtual const SofteningBonds &softening_bonds() const { return softening; }
 
     /// Whether compute() looks for bonds to break, as it does at first. A solver that goes through
     /// states which are no motion of the body lets it look at equilibrium only. Until then bonds that soften
@@ -113,7 +113,19 @@ namespace perideal
 
     /// The bonds of this rank that were cut or broke, in the order in which they went; one that the
     /// partition cuts stands on both ranks.
-    const std::vector<LostBond> &lost_bonds() const { return lost; }
+    virtual const std::vector<LostBond> &lost_bonds() const { return lost; }
+
+    /// How often the force has become one of other bonds or cells, as a FractureZone does as it grows.
+    virtual unsigned int version() const { return 0; }
+
+    /// As released_energy(), what that took out of the energy in the last compute(). Collective.
+    virtual double switched_energy(const NodalVector &, const double) const { return 0.; }
+
+    /// Takes weights anew. Collective.
+    /// @param scaled weights of this force, scaled by @p share
+    /// @param share of each family by local node: lost bonds stay lost, and where neither end has a share
+    /// nothing is computed; empty: the weights know what is lost, and all are whole
+    virtual void take_weights(const BondWeights<dim> &scaled, const std::vector<double> &share);
 
     /// Positions of the local nodes at the last compute(), ghosts included [m].
     virtual const NodeRecord *positions() const = 0;

@@ -22,7 +22,7 @@ namespace perideal
    * (ConsistentBonds). Uniform deformations leave the bonds at rest, rotations the whole. Of laws that are
    * linear, strains are small, and the force is that of ConsistentOperator.
    *
-   * Nothing breaks: no crack crosses a face.
+   * Nothing breaks: cracks are where faces and bonds were opened for them from the beginning.
    */
   template <int dim>
   class ConsistentForce : public BreakingBonds<dim>, public ContinuumForce<dim>
@@ -65,11 +65,19 @@ namespace perideal
 
     const std::shared_ptr<const CellPoints<dim>> &cell_points() const { return points; }
 
+    /// Scales the energy of cells and of the bonds that stabilise them, here and in operators that share
+    /// these.
+    /// @param of_nodes by local node
+    void set_shares(const std::vector<double> &of_nodes) { bonds->set_shares(of_nodes); }
+
+    /// The strain of an owned node at the last compute() [-]: Green's, of linear laws the small one.
+    dealii::SymmetricTensor<2, dim> strain(const LocalIndex i) const { return bonds->strain(i); }
+
   private:
     using BreakingBonds<dim>::families;
 
     bool carries_force(const BondIndex slot) const override { return bonds->stiffness(slot) > 0; }
-    void clear_weights(const BondIndex) override { AssertThrow(false, dealii::ExcNotImplemented()); }
+    void clear_weights(const BondIndex slot) override { bonds->remove(slot); }
 
     /// Green's strain of a gradient in pairs, or the small one.
     typename SymmetricPairs<dim>::Pairs strain_of(const dealii::Tensor<2, dim> &gradient) const;

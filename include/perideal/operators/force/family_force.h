@@ -36,13 +36,14 @@ namespace perideal
 
     explicit FamilyForce(const Weights &weights);
 
-    void                reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
-                                               const typename BondForce<dim>::Reweigh        &reweigh) override;
-    void                compute(NodalVector &force, const NodalVector &displacement) override;
-    void                visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
-    void                restore_broken(const std::vector<BondEnds> &broken) override;
-    double              strain_energy() const override;
-    double              released_energy(const NodalVector &velocity, const double time_step) const override;
+    void   reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                  const typename BondForce<dim>::Reweigh        &reweigh) override;
+    void   take_weights(const BondWeights<dim> &scaled, const std::vector<double> &share) override;
+    void   compute(NodalVector &force, const NodalVector &displacement) override;
+    void   visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
+    void   restore_broken(const std::vector<BondEnds> &broken) override;
+    double strain_energy() const override;
+    double released_energy(const NodalVector &velocity, const double time_step) const override;
     std::vector<double> dilatation() const override
     {
       if constexpr (n_sums == 0)
@@ -102,8 +103,6 @@ namespace perideal
       return unit.force * value_at_end<n_sums>(weights.force_weights(), a, end);
     }
 
-    /// Copies weights, which become single precision. Collective.
-    void take(const Weights &weights);
     /// What compute() does to bonds that are too long.
     enum class Failing
     {

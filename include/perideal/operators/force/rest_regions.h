@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace perideal
@@ -32,6 +33,10 @@ namespace perideal
     /// @param has_moved of a local node
     template <typename HasMoved>
     void update(const HasMoved &has_moved);
+
+    /// From now on computes what nodes that count and their neighbours need, whatever moves. Collective.
+    /// @param counts of a local node
+    void keep_awake(const std::function<bool(const LocalIndex)> &counts);
 
     bool sums_awake(const LocalIndex block) const { return in_sums[block] != 0; }
     bool forces_awake(const LocalIndex block) const { return in_forces[block] != 0; }

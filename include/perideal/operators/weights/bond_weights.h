@@ -51,6 +51,11 @@ namespace perideal
                          const SolidOf<dim>                                            &solid_of,
                          const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) = 0;
 
+    /// Returns the same with a share of the energy of each family, of weights that will change and whose
+    /// forces follow from an energy.
+    /// @param share by local node
+    virtual std::shared_ptr<BondWeights<dim>> scaled(const std::vector<double> &share) const;
+
     virtual std::size_t memory_consumption() const = 0;
 
     std::shared_ptr<const Families<dim>> families;

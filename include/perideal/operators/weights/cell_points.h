@@ -3,6 +3,7 @@
 #define perideal_operators_weights_cell_points_h
 
 #include <perideal/base/symmetric_pairs.h>
+#include <perideal/operators/weights/cell_shares.h>
 #include <perideal/operators/weights/gradient_moments.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace perideal
@@ -51,8 +53,10 @@ namespace perideal
   public:
     static constexpr unsigned int n = 2 * dim;
 
-    explicit CellPoints(const CellPolynomials<dim> &polynomials)
+    /// @param shares by which the energy of cells counts
+    CellPoints(const CellPolynomials<dim> &polynomials, const std::shared_ptr<const CellShares> &shares)
       : volume(polynomials.volumes())
+      , shares(shares)
     {
       for (LocalIndex i = 0; i < volume.size(); ++i)
         {
@@ -66,8 +70,8 @@ namespace perideal
         }
     }
 
-    /// Volume of a point [m^3].
-    double weight(const LocalIndex i) const { return volume[i] / n; }
+    /// Volume of a point as far as it counts [m^3].
+    double weight(const LocalIndex i) const { return shares->of(i) * volume[i] / n; }
 
     /// q of an owned cell [1/m^4].
     dealii::SymmetricTensor<2, dim> offsets(const LocalIndex i) const
@@ -133,6 +137,7 @@ namespace perideal
     }
 
     std::vector<double>                    volume;
+    std::shared_ptr<const CellShares>      shares;
     std::vector<typename Symmetric::Pairs> offset;
   };
 } // namespace perideal

@@ -6,6 +6,7 @@
 #include <perideal/base/symmetric_pairs.h>
 #include <perideal/materials/consistent.h>
 #include <perideal/neighbourhood/bond_list.h>
+#include <perideal/operators/weights/cell_shares.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -42,11 +43,13 @@ namespace perideal
     /// Displacement and strain, lanes as in a PairRecord.
     static constexpr unsigned int n_records = 1 + n_parts;
 
-    /// @param solid_of by material id; every material of the nodes is listed. Collective.
+    /// @param solid_of by material id; every material of the nodes is listed
+    /// @param is_cut bonds that cracks cut, which have no stiffness; empty: none. Collective.
     ConsistentBonds(const std::shared_ptr<const Families<dim>> &families,
                     const CellPolynomials<dim>                 &polynomials,
                     const Consistent<dim>                      &model,
-                    const SolidOf<dim>                         &solid_of);
+                    const SolidOf<dim>                         &solid_of,
+                    const BondPredicate<dim>                   &is_cut = {});
 
     /// Writes the state of an owned node.
     /// @param strain in pairs (xx, yy, .., 2xy, ..)
@@ -100,6 +103,32 @@ namespace perideal
     const BondList &list() const { return bonds; }
     /// b_ij of both families, by slot [N/m^3]; zero of padding.
     double stiffness(const BondIndex slot) const { return stiffness_of[slot]; }
+    /// Takes a bond's stiffness away.
+    void remove(const BondIndex slot)
+    {
+      stiffness_of[slot] = 0.;
+      if (!whole_stiffness.empty())
+        whole_stiffness[slot] = 0.;
+    }
+
+    /// Scales stiffnesses by the shares of cells, which whoever sums over these scales by them too.
+    /// @param of_nodes by local node
+    void set_shares(const std::vector<double> &of_nodes);
+    /// The shares set.
+    std::shared_ptr<const CellShares> shares() const { return shares_of_cells; }
+
+    /// The strain of an owned node that was set last.
+    dealii::SymmetricTensor<2, dim> strain(const LocalIndex i) const
+    {
+      const NodeRecord               *pairs = work.states.data() + n_records * i + 1;
+      dealii::SymmetricTensor<2, dim> result;
+      for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
+        {
+          const auto [a, b] = Symmetric::axes(p);
+          result[a][b]      = (a == b ? 1. : 0.5) * Symmetric::pair(pairs, p);
+        }
+      return result;
+    }
     /// The bond of an owned node with another local one [m].
     dealii::Tensor<1, dim> bond(const LocalIndex i, const LocalIndex j) const
     {
@@ -122,12 +151,15 @@ namespace perideal
     template <Kinematics kinematics>
     void   sum(const Linearisation *at);
     double energy(const bool is_finite) const;
-    void   weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of);
-    void   update_ghosts();
+    void weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut);
+    void update_ghosts();
 
     std::shared_ptr<const Families<dim>> families;
     BondList                             bonds;
     std::vector<double>                  stiffness_of;
+    /// With the whole stiffnesses, once shares were set.
+    std::shared_ptr<CellShares> shares_of_cells = std::make_shared<CellShares>();
+    std::vector<double>         whole_stiffness;
     /// Centroids of local nodes [m].
     dealii::AlignedVector<NodeRecord>                          position;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_states;

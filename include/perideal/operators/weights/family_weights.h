@@ -148,6 +148,8 @@ namespace perideal
                  const SolidOf<dim>                                            &solid_of,
                  const std::function<bool(const LocalIndex, const LocalIndex)> &is_gone) override;
 
+    std::shared_ptr<BondWeights<dim>> scaled(const std::vector<double> &share) const override;
+
     std::size_t memory_consumption() const override;
 
     using Slots = SlotWeights<double, n_sums, own_force_weights>;

@@ -24,10 +24,10 @@ namespace perideal
    *     H_kl    = int (x_k - x_ik) du/dx_l = sum_f int_f n_l (x_k - x_ik) v - delta_kl V w_i,
    *
    * with one value v at a face for both of its cells, the mean of their polynomials (CellPolynomials), or
-   * what is prescribed there. w_i is the mean of the displacement; taking the mean itself would make H of
-   * checkerboards, which faces do not see, three times that of their polynomials, and the largest eigenvalues
-   * with it. So w_i is a mean smoothed over the cells around, chosen such that the trace of H is that
-   * of the cell's polynomial,
+   * what is prescribed there; at an open face (FaceMoments) with that of the cell itself. w_i is the mean of
+   * the displacement; taking the mean itself would make H of checkerboards, which faces do not see, three
+   * times that of their polynomials, and the largest eigenvalues with it. So w_i is a mean smoothed over the
+   * cells around, chosen such that the trace of H is that of the cell's polynomial,
    *
    *     V w_i = 1/dim sum_f int_f n.(x - x_i) v - 1/dim int (x - x_i).grad p_i,
    *
@@ -156,7 +156,7 @@ namespace perideal
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_displacements, of_polynomials;
     std::vector<Face>                                          faces_of_cells;
     std::size_t                                                n_inner_faces;
-    /// By boundary face.
+    /// By face, all of them at the boundary.
     std::map<std::size_t, Held> held;
 
     /// What read() leaves, and transpose() uses.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_zoned_force_h
+#define perideal_operators_force_zoned_force_h
+
+#include <perideal/operators/force/consistent_force.h>
+#include <perideal/operators/force/fracture_zone.h>
+#include <perideal/operators/force/wrapped_bonds.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Computes the force of a body that has the consistent form where it is whole and long families of bonds
+   * where it cracks, - dU/du of
+   *
+   *     U = sum_i (1 - chi_i) (energy of cell i) + 1/2 sum_bonds (1 - (chi_i + chi_j)/2) b_ij r_ij^2
+   *         + sum_i chi_i (energy of family i),
+   *
+   * with chi of a FractureZone, which grows ahead of what breaks: around nodes whose strain comes near to
+   * that at which the first of their bonds would begin to fail. Both forms store the same in uniform strain, so
+   * that growth changes the energy in second order of the cells' size, most at the tips of cracks; what it
+   * does change is booked.
+   */
+  template <int dim>
+  class ZonedForce : public WrappedBonds<dim>, public ContinuumForce<dim>
+  {
+  public:
+    /// Share of the strain at which a bond would begin to fail that makes the zone grow around its node [-].
+    static constexpr double near_to_breaking = 0.5;
+
+    /// @param weights of the bonds, which will change
+    /// @param held where prescribed values at faces of this rank act on cells, and their spacing. Collective.
+    ZonedForce(std::unique_ptr<ConsistentForce<dim>>                       cells,
+               const std::shared_ptr<const BondWeights<dim>>              &weights,
+               const std::vector<std::pair<dealii::Point<dim>, double>> &held);
+
+    void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
+                              const SofteningLaw                             &law   = SofteningLaw(),
+                              const typename BondForce<dim>::CriticalStretch &first = {}) override;
+
+    void judge_bonds(const bool judge) override;
+    void compute(NodalVector &force, const NodalVector &displacement) override;
+
+    std::vector<dealii::Tensor<1, dim>> support_forces() const override { return cells->support_forces(); }
+    void                                register_state(LastingState &state) override;
+    double                              strain_energy() const override;
+    unsigned int version() const override { return zone.version(); }
+    double       switched_energy(const NodalVector &velocity, const double time_step) const override;
+    std::vector<double> dilatation() const override { return cells->dilatation(); }
+    std::size_t         memory_consumption() const override;
+
+    std::vector<dealii::Tensor<2, dim>> gradients() const override { return cells->gradients(); }
+    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return cells->law(i); }
+
+    /// What there is besides bond_force(): the cells, the weights of the bonds as they are scaled, and where
+    /// which of them counts.
+    const ConsistentForce<dim>                    &cell_force() const { return *cells; }
+    const std::shared_ptr<const BondWeights<dim>> &scaled_weights() const { return scaled; }
+    const FractureZone<dim>                       &fracture_zone() const { return zone; }
+
+  private:
+    using WrappedBonds<dim>::bonds;
+
+    /// Owned nodes outside of the core of the zone that come near to breaking.
+    std::vector<LocalIndex> nodes_near_breaking() const;
+    /// Lets the zone grow around nodes and keeps what that changes at this displacement. Collective.
+    void grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
+    /// Gives cells and bonds their shares. Collective.
+    void scale();
+
+    std::unique_ptr<ConsistentForce<dim>>   cells;
+    std::shared_ptr<const BondWeights<dim>> whole, scaled;
+    FractureZone<dim>                       zone;
+    /// Smallest strain at which a bond of an owned node begins to fail [-].
+    std::vector<double> limit;
+    bool                judges = true;
+
+    NodalVector of_cells;
+    /// What the growth in the last compute() has added to the force [N] and taken from the energy [J].
+    struct Change
+    {
+      bool        is_there = false;
+      NodalVector force;
+      double      energy = 0;
+    };
+    Change change;
+  };
+} // namespace perideal
+
+#endif

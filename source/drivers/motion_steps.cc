@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/drivers/motion_steps.h>
+#include <perideal/output/summary.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Of the shortest steps these would take weeks.
+    constexpr double most_steps = 1e11;
+  } // namespace
+
+  void MotionSteps::choose(const SolverParameters &solver,
+                           const double            stable_step,
+                           const std::string      &of_damping)
+  {
+    stable = stable_step;
+    if (!std::isfinite(stable))
+      throw InputError("every node is held: nothing is left that could move")
+        .parameter("Boundary conditions")
+        .hint("hold less of the body, or take smaller cells, of which a boundary holds fewer");
+    if (!(stable > 0))
+      throw InputError("the damping leaves no time step that is stable")
+        .parameter(of_damping)
+        .hint("a motion of frequency f [1/s] is damped critically by 4 pi f");
+    const double wanted   = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable;
+    const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
+    if (!(n_wanted <= most_steps))
+      throw InputError("the run would take " + short_number(n_wanted) + " steps of " + short_number(wanted) +
+                       " s; the largest stable step is " + short_number(stable) + " s")
+        .parameter(solver.time_step > 0 && solver.time_step < 1e-3 * stable ? "Solver/Time step" :
+                                                                              "Solver/End time")
+        .allowed("what makes 1e11 steps at most")
+        .hint("look at Solver/End time and Solver/Time step [s], Material/Density [kg/m^3] and Young "
+              "modulus [Pa], "
+              "and at the size of the body [m]");
+    resume(solver, solver.end_time / n_wanted);
+  }
+
+  void MotionSteps::resume(const SolverParameters &solver, const double earlier)
+  {
+    size   = earlier;
+    number = std::ceil(solver.end_time / size - 1e-6);
+  }
+} // namespace perideal

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/models.h>
+#include <perideal/operators/force/zoned_force.h>
+#include <perideal/operators/linear/zoned_tangent.h>
+#include <perideal/parameters/elastic_constants.h>
+
+#include "bodies.h"
+#include "moments.h"
+#include "testing.h"
+
+#include <cmath>
+
+using namespace perideal;
+
+namespace
+{
+  /// A box of unit modulus in the consistent form, with bonds where it is strained most.
+  template <int dim>
+  struct ZonedBox
+  {
+    explicit ZonedBox(const double begins)
+      : mesh(make_mesh())
+      , body(*mesh, 3.01)
+      , solid(ElasticConstants{1., 0.3, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid})
+    {
+      ModelParameters parameters;
+      parameters.model = "extended ordinary";
+      parameters.form  = "consistent";
+      parameters.resolve(dim);
+      const auto solid_of = [this](const dealii::types::material_id) { return solid; };
+      const auto moments  = test::make_moments(*mesh, body.nodes, std::make_shared<const FaceValues<dim>>());
+      const auto bonds    = std::make_shared<ConsistentBonds<dim>>(
+        body.families, moments->cell_polynomials(), create_consistent<dim>(parameters, 3.01), solid_of);
+      cells = std::make_shared<ConsistentOperator<dim>>(body.families, moments, bonds, solid_of);
+      const auto model = create_model<dim>(parameters.in_zone(), 1.);
+      LawsByMaterial<dim> laws;
+      laws[0] = create_law<dim>(LawChoice("Saint Venant-Kirchhoff"), solid);
+      force   = std::make_unique<ZonedForce<dim>>(
+        std::make_unique<ConsistentForce<dim>>(body.families, moments, bonds, laws),
+        weigh_bonds<dim>(body.families, *model, solid_of, {{}, true, false}),
+        std::vector<std::pair<dealii::Point<dim>, double>>());
+      force->set_critical_stretch([begins](const auto, const auto) { return 3. * begins; },
+                                  SofteningLaw("linear"),
+                                  [begins](const auto, const auto) { return begins; });
+      tangent = std::make_unique<ZonedTangent<dim>>(cells);
+      force->initialize(value);
+    }
+
+    /// A pull along the first axis that is largest in the middle, and something without pattern.
+    NodalVector pulled(const double strain, const double rough) const
+    {
+      NodalVector result(value);
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        {
+          const auto x = body.nodes.position[i];
+          for (int d = 0; d < dim; ++d)
+            result.local_element(dim * i + d) = rough * test::scatter(x, d);
+          result.local_element(dim * i) += strain * 4. * std::tanh(0.5 * (x[0] - 0.5 * length)) * (1. + 0.1 * x[1] / width);
+        }
+      return result;
+    }
+
+    static constexpr double length = 24., width = dim == 2 ? 8. : 4.;
+
+    static std::unique_ptr<Mesh<dim>> make_mesh()
+    {
+      dealii::Point<dim>        size;
+      std::vector<unsigned int> cells(dim, width);
+      for (int d = 0; d < dim; ++d)
+        size[d] = width;
+      size[0] = cells[0] = length;
+      return test::make_box<dim>(cells, size, 0.1);
+    }
+
+    std::unique_ptr<Mesh<dim>>               mesh;
+    test::Body<dim>                          body;
+    ElasticSolid<dim>                        solid;
+    std::shared_ptr<ConsistentOperator<dim>> cells;
+    std::unique_ptr<ZonedForce<dim>>         force;
+    std::unique_ptr<ZonedTangent<dim>>       tangent;
+    NodalVector                              value;
+  };
+
+  /// In a zone of whole bonds the force is the gradient of the energy, and the tangent that of the force.
+  template <int dim>
+  void expect_energy_force_and_tangent()
+  {
+    ZonedBox<dim>     box(0.04);
+    ZonedForce<dim>  &force = *box.force;
+    const NodalVector at    = box.pulled(0.012, 1e-4);
+    force.judge_bonds(false);
+    force.compute(box.value, at);
+    EXPECT_TRUE(force.fracture_zone().is_there());
+    EXPECT_LT(force.fracture_zone().n_nodes(), box.mesh->triangulation.n_global_active_cells());
+    force.compute(box.value, at);
+    const NodalVector there = box.value;
+
+    // Forces of bonds are in single precision.
+    const double      step      = 1e-4;
+    const NodalVector direction = box.pulled(0.3, 1.);
+    const auto        after     = [&](const double share) {
+      NodalVector u(at);
+      u.add(share * step, direction);
+      force.compute(box.value, u);
+      return force.strain_energy();
+    };
+    const double slope = (after(1.) - after(-1.)) / (2. * step);
+    EXPECT_NEAR(-(there * direction), slope, 1e-5 * std::abs(slope));
+
+    after(1.);
+    NodalVector difference = box.value;
+    after(-1.);
+    difference -= box.value;
+    difference *= -1. / (2. * step);
+    force.compute(box.value, at);
+    box.tangent->linearise(force);
+    NodalVector product(box.value);
+    box.tangent->vmult(product, direction);
+    difference -= product;
+    EXPECT_LE(difference.l2_norm(), 2e-3 * product.l2_norm());
+  }
+
+  /// The zone appears, and what that changes is booked.
+  template <int dim>
+  void expect_growth_to_be_booked()
+  {
+    ZonedBox<dim>     whole(1e3), growing(0.04);
+    const NodalVector at = whole.pulled(0.012, 0.), velocity = whole.pulled(1., 0.3);
+    whole.force->compute(whole.value, at);
+    EXPECT_FALSE(whole.force->fracture_zone().is_there());
+    growing.force->compute(growing.value, at);
+    EXPECT_TRUE(growing.force->fracture_zone().is_there());
+    NodalVector change(growing.value);
+    change -= whole.value;
+    const double before = whole.force->strain_energy(), lost = before - growing.force->strain_energy();
+    EXPECT_NEAR(growing.force->switched_energy(velocity, 0.1),
+                lost - 0.05 * (velocity * change),
+                1e-6 * before);
+    // Both forms store the same but for what the strain varies within a family, and at the surfaces.
+    EXPECT_LE(std::abs(lost), 0.2 * before);
+    growing.force->compute(growing.value, at);
+    EXPECT_EQ(growing.force->switched_energy(velocity, 0.1), 0.);
+  }
+} // namespace
+
+TEST(ZonedForce, FollowsItsEnergyAndHasItsTangent2D)
+{
+  expect_energy_force_and_tangent<2>();
+}
+TEST(ZonedForce, FollowsItsEnergyAndHasItsTangent3D)
+{
+  expect_energy_force_and_tangent<3>();
+}
+TEST(ZonedForce, BooksWhatGrowthChanges2D)
+{
+  expect_growth_to_be_booked<2>();
+}
+TEST(ZonedForce, BooksWhatGrowthChanges3D)
+{
+  expect_growth_to_be_booked<3>();
+}
