@@ -195,8 +195,9 @@ namespace perideal
     if (const double own = scene.model.form_traits().defaults.horizon_factor;
         own > 0 && !has_fracture_zone(scene))
       scene.nodes.horizon_factor = own;
-    // The consistent form leaves the choice to the mesh.
-    if (scene.nodes.horizon_shape == HorizonShape::automatic && !scene.model.is_consistent())
+    // The consistent form leaves the choice to the mesh, unless it has families besides.
+    if (scene.nodes.horizon_shape == HorizonShape::automatic &&
+        (!scene.model.is_consistent() || has_fracture_zone(scene)))
       scene.nodes.horizon_shape = HorizonShape::sphere;
   }
 

@@ -30,9 +30,10 @@ namespace perideal
     return {
       refuse(
         "Nodes/Horizon shape",
-        "Nodes/Horizon shape = cell, Material/Form other than consistent",
+        "Nodes/Horizon shape = cell, Material/Form other than consistent, or with bonds that break",
         [](const Scene &s) {
-          return s.nodes.horizon_shape == HorizonShape::cell && !s.model.is_consistent();
+          return s.nodes.horizon_shape == HorizonShape::cell &&
+                 (!s.model.is_consistent() || has_fracture_zone(s));
         },
         "the weights of this model are those of spheres",
         "automatic | sphere; or set Material/Form = consistent"),

@@ -188,13 +188,16 @@ namespace perideal
         const auto        interval     = problem.parameters.checkpoints.steps;
         auto             &screen       = problem.run.screen;
         const StopRequest stop;
-        StepLine          progress(screen.get_stream(), screen.is_active(), steps.number);
+        // Where bonds take the place of cells, loads act on nodes.
+        unsigned int version = problem.force->version();
+        StepLine     progress(screen.get_stream(), screen.is_active(), steps.number);
         for (std::uint64_t n = dynamics->step(); n <= steps.number; ++n)
           {
             {
               const Timings::Scope scope(problem.run.timings, "solve");
-              if (loads_change && n > 0)
+              if ((loads_change || problem.force->version() != version) && n > 0)
                 apply_forces();
+              version = problem.force->version();
               dynamics->evaluate(problem.state.external_force);
             }
             observe(n);

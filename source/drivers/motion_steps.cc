@@ -14,9 +14,8 @@ namespace perideal
     constexpr double most_steps = 1e11;
   } // namespace
 
-  void MotionSteps::choose(const SolverParameters &solver,
-                           const double            stable_step,
-                           const std::string      &of_damping)
+  void
+  MotionSteps::choose(const SolverParameters &solver, const double stable_step, const std::string &of_damping)
   {
     stable = stable_step;
     if (!std::isfinite(stable))

@@ -93,8 +93,10 @@ namespace perideal
       form,
       "Force of the extended ordinary, the tensor involved and the correspondence model: automatic: "
       "consistent in statics and for correspondence where nothing breaks, else energy, moment corrected or "
-      "family; consistent: strain from the faces of the mesh, bonds stabilise, symmetric, the most accurate "
-      "in statics" +
+      "family; consistent: strain from the faces of the mesh, bonds stabilise, symmetric, the most accurate, "
+      "with sharp precracks; of the extended ordinary model cracks grow in it, where it turns into the "
+      "energy "
+      "form" +
         meanings_of_forms(),
       Selection(pattern_of_forms()));
     prm.add_parameter(

@@ -44,9 +44,13 @@ namespace perideal
   template <int dim>
   void Loading<dim>::surround(DiscreteBody<dim> &discretisation, Timings &timings)
   {
-    tractions = create_tractions(
-      treated_body(timings),
-      TreatedBonds<dim>{discretisation.families, discretisation.gradients.moments, solids_of_model(body)});
+    tractions            = create_tractions(treated_body(timings),
+                                 TreatedBonds<dim>{discretisation.families,
+                                                              discretisation.gradients.moments,
+                                                              solids_of_model(body),
+                                                   discretisation.consistent_bonds ?
+                                                                discretisation.consistent_bonds->shares() :
+                                                                nullptr});
     discretisation.bonds = tractions->around(discretisation.bonds);
     moments              = discretisation.gradients.moments;
     place_point_forces(discretisation.gradients);

@@ -10,7 +10,8 @@
  * held, and the operator stays symmetric. Reactions are what acts on these values.
  *
  * Tractions act on the polynomial of the cell behind the face: their virtual work t.p A is one of the means
- * that make p.
+ * that make p. As far as bonds take the place of the cell, they act on its node: bonds would feel what the
+ * polynomial makes of them as forces against each other.
  */
 namespace perideal
 {
@@ -47,11 +48,13 @@ namespace perideal
                            moments.faces().boundary_points(),
                            [&](const BoundaryCondition<dim> &condition, const BoundaryPoint<dim> &point) {
                              const double area = point.area.norm();
-                             moments.add_at(
-                               loads,
-                               point.node,
-                               point.point,
-                               area * Loads<dim>::traction(condition, point.point, point.area / area, time));
+                             const double share =
+                               this->bonds.shares ? this->bonds.shares->of(point.node) : 1.;
+                             const auto pull =
+                               area * Loads<dim>::traction(condition, point.point, point.area / area, time);
+                             moments.add_at(loads, point.node, point.point, share * pull);
+                             for (int d = 0; d < dim; ++d)
+                               force.local_element(dim * point.node + d) += (1. - share) * pull[d];
                            });
         moments.add_nodal_forces(loads, force);
       }

@@ -11,8 +11,8 @@ namespace perideal
   /// The time steps of a motion.
   struct MotionSteps
   {
-    /// Chooses a whole number of steps up to the end of the motion, of which none is larger than asked for or,
-    /// where nothing is asked for, than a safe share of the largest stable one.
+    /// Chooses a whole number of steps up to the end of the motion, of which none is larger than asked for
+    /// or, where nothing is asked for, than a safe share of the largest stable one.
     /// @param stable_step the largest stable one [s]; infinity: nothing can move; 0: none is
     /// @param of_damping the parameter of the strongest damping
     /// @throws InputError where nothing can move, no step is stable, or their number has no end.

@@ -6,6 +6,7 @@
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/materials/linear_model.h>
 #include <perideal/neighbourhood/families.h>
+#include <perideal/operators/weights/cell_shares.h>
 #include <perideal/operators/weights/gradient_moments.h>
 
 #include <memory>
@@ -34,6 +35,8 @@ namespace perideal
     std::shared_ptr<const GradientMoments<dim>> moments;
     /// As the model takes them.
     SolidOf<dim> solid_of;
+    /// What of the energy of cells is that of the consistent form; null: all.
+    std::shared_ptr<const CellShares> shares = nullptr;
   };
 } // namespace perideal
 

@@ -15,7 +15,7 @@
 namespace perideal
 {
   template <int dim>
-  FractureZone<dim>::FractureZone(const std::shared_ptr<const Families<dim>>                 &families,
+  FractureZone<dim>::FractureZone(const std::shared_ptr<const Families<dim>>               &families,
                                   const std::vector<std::pair<dealii::Point<dim>, double>> &held)
     : families(families)
     , chi(families->n_local(), 0.)
@@ -29,9 +29,10 @@ namespace perideal
     tree = dealii::pack_rtree(entries);
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(families->communicator, held))
       for (const auto &[point, spacing] : of_rank)
-        visit_within(point, (ramp + 1.) * spacing, [&, spacing = spacing](const LocalIndex i, const double d) {
-          largest[i] = std::min(largest[i], std::max(0., d / spacing - 1.) / ramp);
-        });
+        visit_within(
+          point, (ramp + 1.) * spacing, [&, spacing = spacing](const LocalIndex i, const double d) {
+            largest[i] = std::min(largest[i], std::max(0., d / spacing - 1.) / ramp);
+          });
   }
 
   template <int dim>

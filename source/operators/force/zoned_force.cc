@@ -14,8 +14,8 @@
 namespace perideal
 {
   template <int dim>
-  ZonedForce<dim>::ZonedForce(std::unique_ptr<ConsistentForce<dim>>                       given,
-                              const std::shared_ptr<const BondWeights<dim>>              &weights,
+  ZonedForce<dim>::ZonedForce(std::unique_ptr<ConsistentForce<dim>>                     given,
+                              const std::shared_ptr<const BondWeights<dim>>            &weights,
                               const std::vector<std::pair<dealii::Point<dim>, double>> &held)
     : WrappedBonds<dim>(create_bond_force<dim>(*weights), *weights->families)
     , cells(std::move(given))
@@ -38,10 +38,9 @@ namespace perideal
       for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
         if (const LocalIndex j = list.neighbour[slot]; j != i)
           {
-            const double begins = std::min(stretch(i, j), law.softens() && first ?
-                                                            first(i, j) :
-                                                            std::numeric_limits<double>::infinity());
-            limit[i]            = std::min(limit[i], begins);
+            const double begins = std::min(
+              stretch(i, j), law.softens() && first ? first(i, j) : std::numeric_limits<double>::infinity());
+            limit[i] = std::min(limit[i], begins);
             if (j < limit.size())
               limit[j] = std::min(limit[j], begins);
           }
@@ -67,14 +66,14 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<LocalIndex> ZonedForce<dim>::nodes_near_breaking() const
+  std::vector<LocalIndex> ZonedForce<dim>::nodes_near_breaking(const double share) const
   {
     std::vector<LocalIndex> result;
     for (LocalIndex i = 0; i < limit.size(); ++i)
       {
         if (zone.is_core(i))
           continue;
-        const double most   = 1. + near_to_breaking * limit[i], most_strain = 0.5 * (most * most - 1.);
+        const double most = 1. + share * limit[i], most_strain = 0.5 * (most * most - 1.);
         const auto   strain = cells->strain(i);
         // No eigenvalue is larger than the norm.
         if (strain.norm() > most_strain && eigenvalues(strain)[0] > most_strain)
@@ -110,9 +109,9 @@ namespace perideal
   {
     change.is_there = false;
     cells->compute(of_cells, displacement);
-    const auto near = nodes_near_breaking();
-    if (dealii::Utilities::MPI::max(near.empty() ? 0u : 1u, displacement.get_mpi_communicator()) > 0)
-      grow(near, displacement);
+    const unsigned int comes_near = nodes_near_breaking(near_to_breaking).empty() ? 0 : 1;
+    if (dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0)
+      grow(nodes_near_breaking(alike * near_to_breaking), displacement);
     bonds->compute(force, displacement);
     force += of_cells;
   }

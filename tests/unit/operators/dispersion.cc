@@ -26,12 +26,15 @@ namespace
     {
       ModelParameters parameters;
       parameters.resolve(dim);
-      bonds = test::make_consistent_operator<dim>(
-        body.families,
-        test::make_moments(
-          *mesh, body.nodes, std::make_shared<const FaceValues<dim>>(), BondPredicate<dim>(), CellUnknown::value),
-        create_consistent<dim>(parameters, 2.01),
-        [this](const auto) { return ElasticSolid<dim>(constants); });
+      bonds =
+        test::make_consistent_operator<dim>(body.families,
+                                            test::make_moments(*mesh,
+                                                               body.nodes,
+                                                               std::make_shared<const FaceValues<dim>>(),
+                                                               BondPredicate<dim>(),
+                                                               CellUnknown::value),
+                                            create_consistent<dim>(parameters, 2.01),
+                                            [this](const auto) { return ElasticSolid<dim>(constants); });
       bonds->initialize(force);
       bonds->initialize(displacement);
       for (int d = 0; d < dim; ++d)
@@ -115,7 +118,8 @@ namespace
             EXPECT_NEAR(speeds[mode], 1., off[k]) << cells[k] << " cells a wave, direction " << direction;
         }
     // The error falls with the fourth power of the number of cells.
-    const double coarse = waves.speeds(directions[1], 12.)[0] - 1., fine = waves.speeds(directions[1], 24.)[0] - 1.;
+    const double coarse = waves.speeds(directions[1], 12.)[0] - 1.,
+                 fine   = waves.speeds(directions[1], 24.)[0] - 1.;
     EXPECT_GE(std::abs(coarse / fine), 12.);
   }
 } // namespace

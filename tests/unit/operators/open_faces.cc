@@ -70,8 +70,9 @@ namespace
     const auto      mesh = make_cube<dim>();
     CrackedBox<dim> whole(*mesh, 0.), cracked(*mesh, 0.11);
     EXPECT_EQ(whole.moments->faces().n_open_faces(), 0u);
-    EXPECT_EQ(dealii::Utilities::MPI::sum<std::size_t>(cracked.moments->faces().n_open_faces(), MPI_COMM_WORLD),
-              dim == 2 ? 4u : 40u);
+    EXPECT_EQ(
+      dealii::Utilities::MPI::sum<std::size_t>(cracked.moments->faces().n_open_faces(), MPI_COMM_WORLD),
+      dim == 2 ? 4u : 40u);
     for (const int axis : {0, dim - 1})
       {
         const auto pulled = [&](const dealii::Point<dim> &x) {

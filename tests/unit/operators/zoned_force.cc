@@ -18,8 +18,8 @@ namespace
   template <int dim>
   struct ZonedBox
   {
-    explicit ZonedBox(const double begins)
-      : mesh(make_mesh())
+    explicit ZonedBox(const double begins, MPI_Comm communicator = MPI_COMM_WORLD)
+      : mesh(make_mesh(communicator))
       , body(*mesh, 3.01)
       , solid(ElasticConstants{1., 0.3, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid})
     {
@@ -32,7 +32,7 @@ namespace
       const auto bonds    = std::make_shared<ConsistentBonds<dim>>(
         body.families, moments->cell_polynomials(), create_consistent<dim>(parameters, 3.01), solid_of);
       cells = std::make_shared<ConsistentOperator<dim>>(body.families, moments, bonds, solid_of);
-      const auto model = create_model<dim>(parameters.in_zone(), 1.);
+      const auto          model = create_model<dim>(parameters.in_zone(), 1.);
       LawsByMaterial<dim> laws;
       laws[0] = create_law<dim>(LawChoice("Saint Venant-Kirchhoff"), solid);
       force   = std::make_unique<ZonedForce<dim>>(
@@ -55,21 +55,22 @@ namespace
           const auto x = body.nodes.position[i];
           for (int d = 0; d < dim; ++d)
             result.local_element(dim * i + d) = rough * test::scatter(x, d);
-          result.local_element(dim * i) += strain * 4. * std::tanh(0.5 * (x[0] - 0.5 * length)) * (1. + 0.1 * x[1] / width);
+          result.local_element(dim * i) +=
+            strain * 4. * std::tanh(0.5 * (x[0] - 0.5 * length)) * (1. + 0.1 * x[1] / width);
         }
       return result;
     }
 
     static constexpr double length = 24., width = dim == 2 ? 8. : 4.;
 
-    static std::unique_ptr<Mesh<dim>> make_mesh()
+    static std::unique_ptr<Mesh<dim>> make_mesh(MPI_Comm communicator)
     {
       dealii::Point<dim>        size;
       std::vector<unsigned int> cells(dim, width);
       for (int d = 0; d < dim; ++d)
         size[d] = width;
       size[0] = cells[0] = length;
-      return test::make_box<dim>(cells, size, 0.1);
+      return test::make_box<dim>(cells, size, 0.1, communicator);
     }
 
     std::unique_ptr<Mesh<dim>>               mesh;
@@ -133,16 +134,47 @@ namespace
     NodalVector change(growing.value);
     change -= whole.value;
     const double before = whole.force->strain_energy(), lost = before - growing.force->strain_energy();
-    EXPECT_NEAR(growing.force->switched_energy(velocity, 0.1),
-                lost - 0.05 * (velocity * change),
-                1e-6 * before);
+    EXPECT_NEAR(
+      growing.force->switched_energy(velocity, 0.1), lost - 0.05 * (velocity * change), 1e-6 * before);
     // Both forms store the same but for what the strain varies within a family, and at the surfaces.
     EXPECT_LE(std::abs(lost), 0.2 * before);
     growing.force->compute(growing.value, at);
     EXPECT_EQ(growing.force->switched_energy(velocity, 0.1), 0.);
   }
+
+  /// Where the zone is and what it does do not depend on how the body is divided among ranks.
+  template <int dim>
+  void expect_same_zone_on_ranks()
+  {
+    ZonedBox<dim> shared(0.04), alone(0.04, MPI_COMM_SELF);
+    for (ZonedBox<dim> *box : {&shared, &alone})
+      for (const double strain : {0.004, 0.009, 0.012})
+        box->force->compute(box->value, box->pulled(strain, 1e-4));
+    EXPECT_EQ(shared.force->fracture_zone().n_nodes(), alone.force->fracture_zone().n_nodes());
+    EXPECT_NEAR(
+      shared.force->strain_energy(), alone.force->strain_energy(), 1e-9 * alone.force->strain_energy());
+    const auto  &chi = shared.force->fracture_zone().share(), &of_all = alone.force->fracture_zone().share();
+    const double size = alone.value.linfty_norm();
+    for (LocalIndex i = 0; i < shared.body.families->n_local(); ++i)
+      for (LocalIndex j = 0; j < alone.body.nodes.size(); ++j)
+        if (shared.body.families->position[i].distance(alone.body.nodes.position[j]) < 1e-9)
+          {
+            EXPECT_NEAR(chi[i], of_all[j], 1e-12);
+            for (int d = 0; i < shared.body.nodes.size() && d < dim; ++d)
+              EXPECT_NEAR(
+                shared.value.local_element(dim * i + d), alone.value.local_element(dim * j + d), 1e-6 * size);
+          }
+  }
 } // namespace
 
+TEST(ZonedForce, SameOnAnyNumberOfRanks2D)
+{
+  expect_same_zone_on_ranks<2>();
+}
+TEST(ZonedForce, SameOnAnyNumberOfRanks3D)
+{
+  expect_same_zone_on_ranks<3>();
+}
 TEST(ZonedForce, FollowsItsEnergyAndHasItsTangent2D)
 {
   expect_energy_force_and_tangent<2>();

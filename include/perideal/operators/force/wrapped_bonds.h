@@ -22,8 +22,8 @@ namespace perideal
     }
     const SofteningBonds &softening_bonds() const override { return bonds->softening_bonds(); }
     void                  judge_bonds(const bool judge) override { bonds->judge_bonds(judge); }
-    void reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
-                                const typename BondForce<dim>::Reweigh        &reweigh) override
+    void                  reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
+                                                 const typename BondForce<dim>::Reweigh        &reweigh) override
     {
       bonds->reweigh_as_bonds_break(weights, reweigh);
     }
@@ -39,7 +39,7 @@ namespace perideal
     std::vector<double> damage() const override { return bonds->damage(); }
     std::vector<double> cut_share() const override { return bonds->cut_share(); }
     double              share_computed() const override { return bonds->share_computed(); }
-    double released_energy(const NodalVector &velocity, const double time_step) const override
+    double              released_energy(const NodalVector &velocity, const double time_step) const override
     {
       return bonds->released_energy(velocity, time_step);
     }

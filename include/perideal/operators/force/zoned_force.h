@@ -19,8 +19,8 @@ namespace perideal
    *         + sum_i chi_i (energy of family i),
    *
    * with chi of a FractureZone, which grows ahead of what breaks: around nodes whose strain comes near to
-   * that at which the first of their bonds would begin to fail. Both forms store the same in uniform strain, so
-   * that growth changes the energy in second order of the cells' size, most at the tips of cracks; what it
+   * that at which the first of their bonds would begin to fail. Both forms store the same in uniform strain,
+   * so that growth changes the energy in second order of the cells' size, most at the tips of cracks; what it
    * does change is booked.
    */
   template <int dim>
@@ -29,11 +29,14 @@ namespace perideal
   public:
     /// Share of the strain at which a bond would begin to fail that makes the zone grow around its node [-].
     static constexpr double near_to_breaking = 0.5;
+    /// Where one grows, nodes with so much of that make it grow too: of nodes that are equal, rounding does
+    /// not choose one.
+    static constexpr double alike = 0.98;
 
     /// @param weights of the bonds, which will change
     /// @param held where prescribed values at faces of this rank act on cells, and their spacing. Collective.
-    ZonedForce(std::unique_ptr<ConsistentForce<dim>>                       cells,
-               const std::shared_ptr<const BondWeights<dim>>              &weights,
+    ZonedForce(std::unique_ptr<ConsistentForce<dim>>                     cells,
+               const std::shared_ptr<const BondWeights<dim>>            &weights,
                const std::vector<std::pair<dealii::Point<dim>, double>> &held);
 
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
@@ -46,8 +49,8 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> support_forces() const override { return cells->support_forces(); }
     void                                register_state(LastingState &state) override;
     double                              strain_energy() const override;
-    unsigned int version() const override { return zone.version(); }
-    double       switched_energy(const NodalVector &velocity, const double time_step) const override;
+    unsigned int                        version() const override { return zone.version(); }
+    double              switched_energy(const NodalVector &velocity, const double time_step) const override;
     std::vector<double> dilatation() const override { return cells->dilatation(); }
     std::size_t         memory_consumption() const override;
 
@@ -63,8 +66,8 @@ namespace perideal
   private:
     using WrappedBonds<dim>::bonds;
 
-    /// Owned nodes outside of the core of the zone that come near to breaking.
-    std::vector<LocalIndex> nodes_near_breaking() const;
+    /// Owned nodes outside of the core of the zone with a share of the strain at which bonds begin to fail.
+    std::vector<LocalIndex> nodes_near_breaking(const double share) const;
     /// Lets the zone grow around nodes and keeps what that changes at this displacement. Collective.
     void grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
     /// Gives cells and bonds their shares. Collective.
