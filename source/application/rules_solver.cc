@@ -171,8 +171,10 @@ namespace perideal
         "the error of displacements may be many times the tolerance: take 1e-4 or less"),
       refuse(
         "Solver/Relative damping",
-        "Material/Form = consistent",
-        [](const Scene &s) { return s.solver.relative_damping > 0 && s.model.is_consistent(); },
+        "Material/Form = consistent, Solver/Name other than static",
+        [](const Scene &s) {
+          return s.solver.relative_damping > 0 && s.model.is_consistent() && !s.solver.is_linear_static();
+        },
         "damping between nodes is that of bonds that carry the body's forces",
         "0 for Material/Form = consistent",
         "set Solver/Damping"),
