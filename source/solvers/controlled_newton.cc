@@ -25,9 +25,8 @@ namespace perideal
     constexpr unsigned int first_secants = 8, more_secants = 5;
     /// Trials of an iteration by the tangent, each half as long as the one before.
     constexpr unsigned int n_trials = 2;
-    /// What the residual after such an iteration may be over that before: nearly any fall is worth more than
-    /// secants.
-    constexpr double largest_left = 0.9;
+    /// What the residual after such an iteration may be over that before.
+    constexpr double largest_left = 0.5;
     /// Readings of what is controlled that find a change of t.
     constexpr unsigned int most_readings = 5;
   } // namespace
@@ -243,7 +242,6 @@ namespace perideal
     if (!std::isfinite(time_change))
       result.problem = "the controlled quantity does not change with the loads";
     place(0., 0.);
-    this->compute_residual(external);
     return false;
   }
 
