@@ -298,6 +298,7 @@ set(perideal_sources
   drivers/driver_checkpoint.cc
   drivers/dynamics_driver.cc
   drivers/equilibrium_driver.cc
+  drivers/failed_step.cc
   drivers/load_control.cc
   drivers/motion_check.cc
   drivers/motion_forces.cc

@@ -3,6 +3,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/failed_step.h>
 #include <perideal/drivers/load_control.h>
 #include <perideal/drivers/preconditioning.h>
 #include <perideal/fracture/floating_nodes.h>
@@ -23,31 +24,6 @@ namespace perideal
       kind.has_iterations        = true;
       kind.has_linear_iterations = solver.is_quasi_static();
       return kind;
-    }
-
-    /// What a load step that failed tells the user.
-    std::string describe_failure(const SolverParameters &solver,
-                                 const unsigned int      number,
-                                 const double            time,
-                                 const EquilibriumStep  &result,
-                                 const GlobalIndex       n_broken)
-    {
-      const std::string broke_apart =
-        "a body that broke apart under forces has no equilibrium: prescribe displacements instead, or take "
-        "Solver/Name = ";
-      return (solver.is_quasi_static() ? "Newton's method stopped in load step " :
-                                         "dynamic relaxation stopped in load step ") +
-             std::to_string(number) + ", t = " + short_number(time) + ", after " +
-             std::to_string(result.iterations) + " iterations at a relative residual of " +
-             short_number(result.residuals.back()) + ", not at " + short_number(solver.tolerance) +
-             (result.problem.empty() ? "" : ", since " + result.problem) + ", with " +
-             std::to_string(n_broken) + " broken bonds\n  advice: " +
-             (solver.is_quasi_static() ?
-                "raise Solver/Load steps, with loads that grow with t, or Solver/Newton iterations; see "
-                "the residuals in history.h5; a body that buckles or softens may want Solver/Name = dynamic "
-                "relaxation; " +
-                  broke_apart + "dynamics" :
-                "raise Solver/Maximum iterations; " + broke_apart + "dynamics");
     }
 
     /// Equilibria of the nonlinear force along load steps, with failure, by Newton's method or dynamic
@@ -225,7 +201,8 @@ namespace perideal
         recorders->observe(step);
         recorders->record(step);
         if (!step.search.converged)
-          throw ComputationError(describe_failure(solver, number, reached, step.search, path->n_broken()));
+          throw ComputationError(
+            describe_failed_step(solver, number, reached, step.search, path->n_broken()));
         if (step.is_last)
           recorders->conclude(step);
         recorders->write_fields(step);
@@ -284,19 +261,26 @@ namespace perideal
       EquilibriumStep find_equilibrium(const std::uint64_t number, const double time)
       {
         const Timings::Scope scope(problem.run.timings, "solve");
-        auto                &screen = problem.run.screen;
-        const std::string    what   = "load step " + std::to_string(number) + " of " +
+        const unsigned int   version = problem.force->version();
+        auto                &screen  = problem.run.screen;
+        const std::string    what    = "load step " + std::to_string(number) + " of " +
                                  std::to_string(solver.load_steps) + ", " + std::to_string(path->n_broken()) +
                                  " broken bonds";
-        apply_loads(time);
         ProgressLine progress(screen.get_stream(), screen.is_active(), what, solver.tolerance);
-        return path->step(
-          problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
+        apply_loads(time);
+        EquilibriumStep result =
+          path->step(problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
             if (solver.is_quasi_static())
               screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
             else
               progress(iteration, r);
           });
+        if (!result.converged || problem.force->version() == version)
+          return result;
+        // Where bonds have taken the place of cells, loads act on nodes.
+        EquilibriumStep again = find_equilibrium(number, time);
+        again.add_before(result);
+        return again;
       }
 
       void apply_loads(const double time)

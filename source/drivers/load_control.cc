@@ -137,6 +137,7 @@ namespace perideal
   void LoadControl<dim>::lengthen(const unsigned int iterations)
   {
     reached += path.amount();
+    tried_loads    = false;
     largest_energy = std::max(largest_energy, path.energy().strain);
     if (jumps)
       {
@@ -176,6 +177,12 @@ namespace perideal
     const double least = std::ldexp(largest_amount, -static_cast<int>(solver.step_halvings));
     if (jumps)
       return false;
+    if (solver.control == LoadControlName::dissipated_energy && !tried_loads && amount > path.energy().strain)
+      {
+        by_loads = tried_loads = true;
+        time_step              = largest_time_step;
+        return true;
+      }
     amount *= 0.5;
     if (amount >= least || solver.control == LoadControlName::gauge)
       return amount >= least;

@@ -14,6 +14,9 @@ namespace perideal
     /// How far a step may be from the amount asked for: of a gauge, and of dissipated energy, which is a
     /// length of steps more than a result.
     constexpr double of_gauge = 1e-3, of_dissipation = 0.02;
+    /// Share of that which an iteration may be off: one at constant loads does not lead to an equilibrium
+    /// from which a crack would run on.
+    constexpr double of_iteration = 2e-3;
     /// Largest step over the one before that a prediction extends.
     constexpr double longest_prediction = 1.5;
     /// What solves with the secant and the tangent may leave of the residual: the secant itself leaves about
@@ -26,7 +29,7 @@ namespace perideal
     /// Trials of an iteration by the tangent, each half as long as the one before.
     constexpr unsigned int n_trials = 2;
     /// What the residual after such an iteration may be over that before.
-    constexpr double largest_left = 0.5;
+    constexpr double largest_left = 0.9;
     /// Readings of what is controlled that find a change of t.
     constexpr unsigned int most_readings = 5;
   } // namespace
@@ -50,6 +53,7 @@ namespace perideal
     state.add_value("load factor", previous.time);
     state.add_value("change of the load factor", previous.time_change);
     state.add_value("controlled amount", previous.amount);
+    state.add_value("change of what is controlled by unit load factor", previous.by_time);
   }
 
   template <int dim>
@@ -108,6 +112,11 @@ namespace perideal
         if (residual <= std::max(this->controls.tolerance * reference, this->rounding.force) &&
             std::abs(change - amount) <= may_miss(amount))
           {
+            if (this->controls.bonds_break && this->extend_bonds())
+              {
+                since_progress = 0;
+                continue;
+              }
             const GlobalIndex n_broken = this->controls.bonds_break ? this->judge(external) : 0;
             result.broken += n_broken;
             // The work along a long way is not exact: so much may seem to be dissipated where nothing is.
@@ -242,6 +251,7 @@ namespace perideal
     if (!std::isfinite(time_change))
       result.problem = "the controlled quantity does not change with the loads";
     place(0., 0.);
+    this->compute_residual(external);
     return false;
   }
 
@@ -292,23 +302,23 @@ namespace perideal
       place(1., time_change);
       return changed() - amount;
     };
-    double       earlier = 0., of_earlier = miss(earlier);
-    const double enough = 0.5 * may_miss(amount);
-    if (std::abs(of_earlier) <= enough)
-      return earlier;
+    const double enough      = of_iteration * may_miss(amount);
+    double       time_change = 0., missed = miss(time_change);
     // By secants, where bonds soften at other loads than those where they were linearised.
-    double time_change = control.small_time, now = miss(time_change);
-    for (unsigned int k = 0; k < most_readings && std::abs(now) > enough; ++k)
+    double next = previous.by_time == 0. ? control.small_time : -missed / previous.by_time;
+    for (unsigned int k = 0; k <= most_readings && std::abs(missed) > enough; ++k)
       {
-        const double next = std::clamp(time_change - now * (time_change - earlier) / (now - of_earlier),
-                                       -control.large_time,
-                                       control.large_time);
+        next = std::clamp(next, -control.large_time, control.large_time);
         if (!std::isfinite(next) || next == time_change)
-          return next;
-        earlier     = time_change;
-        of_earlier  = now;
-        time_change = next;
-        now         = miss(time_change);
+          {
+            previous.by_time = 0.;
+            return next;
+          }
+        const double now = miss(next);
+        previous.by_time = (now - missed) / (next - time_change);
+        time_change      = next;
+        missed           = now;
+        next             = time_change - missed / previous.by_time;
       }
     return time_change;
   }

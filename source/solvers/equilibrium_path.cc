@@ -97,6 +97,11 @@ namespace perideal
                 result.problem = "the step dissipates more than it may";
                 return result;
               }
+            if (extend_bonds())
+              {
+                since_break = 0;
+                continue;
+              }
             const GlobalIndex now = judge(external);
             result.broken += now;
             judged = now == 0;
@@ -145,19 +150,19 @@ namespace perideal
   {
     earlier_force.swap(force);
     bonds.compute(force, displacement);
-    if (bonds.version() == last.version)
-      return;
+  }
+
+  template <int dim>
+  bool EquilibriumPath<dim>::extend_bonds()
+  {
+    if (!bonds.extend_bonds(displacement))
+      return false;
     // The last equilibrium is seen with the bonds and cells that the force has become one of: no energy is
     // dissipated by that.
-    last.version               = bonds.version();
-    const NodalVector now      = displacement;
-    const auto        at_faces = [&]() {
-      std::vector<dealii::Tensor<1, dim>> result;
-      for (std::size_t e = 0; face_values != nullptr && e < face_values->entries().size(); ++e)
-        result.push_back(face_values->entries()[e].value);
-      return result;
-    };
-    const auto values_now = at_faces();
+    const NodalVector                   now = displacement;
+    std::vector<dealii::Tensor<1, dim>> values_now;
+    for (std::size_t e = 0; face_values != nullptr && e < face_values->entries().size(); ++e)
+      values_now.push_back(face_values->entries()[e].value);
     restore();
     bonds.compute(force, displacement);
     const double strain = bonds.strain_energy();
@@ -167,7 +172,8 @@ namespace perideal
     displacement = now;
     if (face_values != nullptr)
       face_values->set_values(values_now);
-    bonds.compute(force, displacement);
+    compute_forces();
+    return true;
   }
 
   template <int dim>
@@ -195,18 +201,8 @@ namespace perideal
   {
     if (face_values != nullptr)
       face_values->set_time(loads, time);
-    last.version = bonds.version();
     compute_forces();
     keep(external, force);
-  }
-
-  template <int dim>
-  double EquilibriumPath<dim>::face_reaction_square() const
-  {
-    double result = 0;
-    for (const auto &force : bonds.support_forces())
-      result += force.norm_square();
-    return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
   }
 
   template <int dim>

@@ -161,6 +161,8 @@ namespace perideal
         squares[0] += is_held[k] ? total * total : 0.;
         squares[1] += p * p;
       }
+    for (const auto &at_face : this->bonds.support_forces())
+      squares[0] += at_face.norm_square();
     if (!in_place)
       {
         // The supports pull before they move.
@@ -171,8 +173,8 @@ namespace perideal
       }
     const MPI_Comm communicator = displacement.get_mpi_communicator();
     norms.residual              = residual.norm_sqr();
-    norms.reaction = dealii::Utilities::MPI::sum(squares[0], communicator) + this->face_reaction_square();
-    norms.load     = dealii::Utilities::MPI::sum(squares[1], communicator);
+    norms.reaction              = dealii::Utilities::MPI::sum(squares[0], communicator);
+    norms.load                  = dealii::Utilities::MPI::sum(squares[1], communicator);
     return norms;
   }
 
@@ -244,6 +246,7 @@ namespace perideal
       (searching.n_without_tangent > 0 ? searching.n_without_tangent : without_tangent_in_a_row) - 1;
     searching.n_in_vain = 0;
     // There is no equilibrium nearby. What has softened until here stays so.
+    this->extend_bonds();
     this->judge(external);
     tangent.linearise(this->bonds, true);
     if (!solve(result))

@@ -11,8 +11,9 @@ namespace perideal
    * Chooses the load steps of a path whose loads are an unknown: by equal elongations of a gauge, or by loads
    * that grow until a step of them would dissipate more than the largest step, and by dissipated energy from
    * there on. A step that fails is halved; steps grow again where they are found easily. Where the shortest
-   * one fails, as where nothing softens any more, the path jumps by a step of the loads. Without another end
-   * the path goes on to t = 1, or until a thousandth of the largest strain energy is left.
+   * one fails, as where nothing softens any more, the path jumps by a step of the loads. A body that stores
+   * less than a step would dissipate has to be loaded first. Without another end the path goes on to t = 1,
+   * or until a thousandth of the largest strain energy is left.
    */
   template <int dim>
   class LoadControl
@@ -55,6 +56,8 @@ namespace perideal
     const double largest_time_step, largest_amount;
     double       time_step, amount;
     bool         by_loads, jumps = false;
+    /// Whether loads were tried since the last equilibrium where the body stores less than a step dissipates.
+    bool tried_loads = false;
     /// Of what is controlled [m or J], and the largest strain energy [J].
     double reached = 0, largest_energy = 0;
   };

@@ -5,6 +5,7 @@
 #include <perideal/solvers/solver_parameters.h>
 
 #include <cstdint>
+#include <string>
 
 namespace perideal
 {

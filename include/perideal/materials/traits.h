@@ -24,9 +24,10 @@ namespace perideal
    *
    * - families: from the bonds of its family.
    * - faces: from the face gradient of its cell (materials/consistent.h). Every node must have a cell then:
-   *   fictitious nodes and nodes on the surface have none, and no crack grows. Displacements and
-   *   tractions are taken at faces, the horizon may have the shape of the cells, and bonds only stabilise,
-   *   for which whole cells serve.
+   *   fictitious nodes and nodes on the surface have none. Cracks grow where bonds of families take the place
+   *   of cells (operators/force/zoned_force.h), if the model has such. Displacements and tractions are taken
+   *   at faces, the horizon may have the shape of the cells, and bonds only stabilise, for which whole cells
+   *   serve.
    */
   enum class Discretisation
   {

@@ -127,11 +127,12 @@ namespace perideal
       double      time = 0;
     };
     Start start;
-    /// The last equilibrium and the step to it.
+    /// The last equilibrium and the step to it; by how much unit t changes the controlled quantity, as read
+    /// last, or zero.
     struct Previous
     {
       NodalVector motion;
-      double      time = 0, time_change = 0, amount = 0, reading = 0;
+      double      time = 0, time_change = 0, amount = 0, reading = 0, by_time = 0;
     };
     Previous previous;
   };

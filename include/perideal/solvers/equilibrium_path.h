@@ -48,7 +48,8 @@ namespace perideal
    * residual has come below 1e-4, and again below the tolerance, all bonds beyond their limit break at
    * once; equilibrium is then sought again, until none breaks. Bonds that soften do so along with the search,
    * each iterate by itself leaving them what it would if the body came to it from the last equilibrium; at
-   * rest that is for good.
+   * rest that is for good. Where bonds have to take the place of cells first, equilibrium is sought again
+   * before any is judged.
    */
   template <int dim>
   class EquilibriumPath
@@ -135,15 +136,16 @@ namespace perideal
 
     void compute_forces();
 
+    /// Lets bonds take the place of cells that come near to breaking; returns whether there is another force
+    /// now, whose equilibrium is to be sought. Collective.
+    bool extend_bonds();
+
     /// Lets bonds soften or break for good at the present displacement; returns how many broke. Collective.
     GlobalIndex judge(const NodalVector &external);
 
     /// Positions y are rounded by eps |y|: forgives what that makes of forces in a body whose nodes
     /// have these stiffnesses by component [N/m].
     void set_rounding(const NodalVector &stiffness);
-
-    /// Sum of the squared forces at prescribed face values [N^2]. Collective.
-    double face_reaction_square() const;
 
     /// Keeps the present state as an equilibrium: its energies, forces and largest load. Collective.
     void settle(const NodalVector &external, const Norms &norms);
@@ -194,7 +196,6 @@ namespace perideal
       std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
       EnergyBudget                        energy;
       double                              largest_load = 0;
-      unsigned int                        version      = 0;
     };
     Equilibrium last;
 

@@ -83,7 +83,7 @@ namespace perideal
   }
 
   template <int dim>
-  void ZonedForce<dim>::grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement)
+  bool ZonedForce<dim>::grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement)
   {
     NodalVector of_bonds(of_cells);
     const auto  look = [&](const double sign) {
@@ -98,10 +98,19 @@ namespace perideal
     look(-1.);
     change.is_there = zone.grow(nodes);
     if (!change.is_there)
-      return;
+      return false;
     scale();
     cells->compute(of_cells, displacement);
     look(1.);
+    return true;
+  }
+
+  template <int dim>
+  bool ZonedForce<dim>::extend_bonds(const NodalVector &displacement)
+  {
+    const unsigned int comes_near = nodes_near_breaking(near_to_breaking).empty() ? 0 : 1;
+    return dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0 &&
+           grow(nodes_near_breaking(alike * near_to_breaking), displacement);
   }
 
   template <int dim>
@@ -109,9 +118,8 @@ namespace perideal
   {
     change.is_there = false;
     cells->compute(of_cells, displacement);
-    const unsigned int comes_near = nodes_near_breaking(near_to_breaking).empty() ? 0 : 1;
-    if (dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0)
-      grow(nodes_near_breaking(alike * near_to_breaking), displacement);
+    if (judges)
+      extend_bonds(displacement);
     bonds->compute(force, displacement);
     force += of_cells;
   }

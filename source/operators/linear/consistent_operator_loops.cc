@@ -51,11 +51,10 @@ namespace perideal
   {
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
-        const auto  &C      = solids[solid_of_node[i]];
-        const double share  = bonds->shares()->of(i),
-                     volume = share * moments->cell_polynomials().volumes()[i];
-        NodeRecord *g = moments->gradient(i), *h = moments->moment(i);
-        const auto  stress_of = [&](const Pairs &strain, Pairs &stress) {
+        const auto  &C     = solids[solid_of_node[i]];
+        const double share = bonds->share(i), volume = share * moments->cell_polynomials().volumes()[i];
+        NodeRecord  *g = moments->gradient(i), *h = moments->moment(i);
+        const auto   stress_of = [&](const Pairs &strain, Pairs &stress) {
           for (unsigned int p = 0; p < n_pairs; ++p)
             {
               stress[p] = 0.;

@@ -177,7 +177,7 @@ namespace perideal
         return;
       }
     CellEnergy<dim> energy{
-      moments->cell_polynomials().volumes()[i], {}, bonds->shares()->of(i) * tensors[solid_of_node[i]]};
+      moments->cell_polynomials().volumes()[i], {}, bonds->share(i) * tensors[solid_of_node[i]]};
     for (unsigned int p = 0; p < n_pairs; ++p)
       {
         const auto [a, b]           = Symmetric::axes(p);

@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/force/softening_bonds.h>
+#include <perideal/operators/force/switching_force.h>
 #include <perideal/operators/weights/family_weights.h>
 
 #include <deal.II/base/tensor.h>
@@ -28,11 +29,9 @@ namespace perideal
    * it is whole.
    */
   template <int dim>
-  class BondForce
+  class BondForce : public SwitchingForce
   {
   public:
-    virtual ~BondForce() = default;
-
     /// Stretch at which a bond between two local nodes breaks [-]; infinity: never.
     using CriticalStretch = std::function<double(const LocalIndex, const LocalIndex)>;
 
@@ -114,12 +113,6 @@ namespace perideal
     /// The bonds of this rank that were cut or broke, in the order in which they went; one that the
     /// partition cuts stands on both ranks.
     virtual const std::vector<LostBond> &lost_bonds() const { return lost; }
-
-    /// How often the force has become one of other bonds or cells, as a FractureZone does as it grows.
-    virtual unsigned int version() const { return 0; }
-
-    /// As released_energy(), what that took out of the energy in the last compute(). Collective.
-    virtual double switched_energy(const NodalVector &, const double) const { return 0.; }
 
     /// Takes weights anew. Collective.
     /// @param scaled weights of this force, scaled by @p share

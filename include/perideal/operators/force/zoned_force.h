@@ -19,9 +19,11 @@ namespace perideal
    *         + sum_i chi_i (energy of family i),
    *
    * with chi of a FractureZone, which grows ahead of what breaks: around nodes whose strain comes near to
-   * that at which the first of their bonds would begin to fail. Both forms store the same in uniform strain,
-   * so that growth changes the energy in second order of the cells' size, most at the tips of cracks; what it
-   * does change is booked.
+   * that at which the first of their bonds would begin to fail. It grows where bonds are looked at, at each
+   * step of a motion and at equilibria: states between these are none of the body, and a force that changes
+   * while its equilibrium is sought may not have one. Both forms store the same in uniform strain, so that
+   * growth changes the energy in second order of the cells' size, most at the tips of cracks; what it does
+   * change is booked.
    */
   template <int dim>
   class ZonedForce : public WrappedBonds<dim>, public ContinuumForce<dim>
@@ -45,6 +47,7 @@ namespace perideal
 
     void judge_bonds(const bool judge) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
+    bool extend_bonds(const NodalVector &displacement) override;
 
     std::vector<dealii::Tensor<1, dim>> support_forces() const override { return cells->support_forces(); }
     void                                register_state(LastingState &state) override;
@@ -68,8 +71,9 @@ namespace perideal
 
     /// Owned nodes outside of the core of the zone with a share of the strain at which bonds begin to fail.
     std::vector<LocalIndex> nodes_near_breaking(const double share) const;
-    /// Lets the zone grow around nodes and keeps what that changes at this displacement. Collective.
-    void grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
+    /// Lets the zone grow around nodes and keeps what that changes at this displacement; returns whether it
+    /// did. Collective.
+    bool grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
     /// Gives cells and bonds their shares. Collective.
     void scale();
 

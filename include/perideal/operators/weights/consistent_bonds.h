@@ -116,6 +116,8 @@ namespace perideal
     void set_shares(const std::vector<double> &of_nodes);
     /// The shares set.
     std::shared_ptr<const CellShares> shares() const { return shares_of_cells; }
+    /// That of a node.
+    double share(const LocalIndex i) const { return shares_of_cells->of(i); }
 
     /// The strain of an owned node that was set last.
     dealii::SymmetricTensor<2, dim> strain(const LocalIndex i) const
