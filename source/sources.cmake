@@ -186,6 +186,7 @@ set(perideal_sources
   operators/force/correspondence_force.cc
   operators/force/family_force.cc
   operators/force/fracture_zone.cc
+  operators/force/intact_gradients.cc
   operators/force/family_force_energy.cc
   operators/force/family_force_failure.cc
   operators/force/family_force_loops.cc

@@ -5,10 +5,10 @@
 namespace perideal
 {
   std::string describe_failed_step(const SolverParameters &solver,
-                               const unsigned int      number,
-                               const double            time,
-                               const EquilibriumStep  &result,
-                               const GlobalIndex       n_broken)
+                                   const unsigned int      number,
+                                   const double            time,
+                                   const EquilibriumStep  &result,
+                                   const GlobalIndex       n_broken)
   {
     const std::string broke_apart =
       "a body that broke apart under forces has no equilibrium: prescribe displacements instead, or take "

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/continuum_force.h>
+#include <perideal/operators/force/intact_gradients.h>
 #include <perideal/operators/post/partial_stress.h>
 #include <perideal/operators/weights/cell_points.h>
 #include <perideal/problem/crack_driving.h>
 #include <perideal/problem/elastic_states.h>
-#include <perideal/reconstruction/family_quadratics.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -171,22 +171,7 @@ namespace perideal
       }
     const Families<2>  &families     = *problem.discretisation.families;
     const BondForce<2> &force        = *problem.force;
-    const BondList     &bonds        = force.bond_list();
     const NodalVector   displacement = displacement_of_families(problem);
-
-    FamilyQuadratics<2> fit(families, displacement, nodes);
-    std::vector<bool>   is_lost(bonds.n_slots(), false);
-    for (const auto &bond : force.lost_bonds())
-      is_lost[bond.slot] = true;
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        // Along a bond that softened the displacement jumps.
-        if (const LocalIndex j = bonds.neighbour[slot];
-            j != i && !is_lost[slot] && force.softening_bonds().share(slot) == 1.)
-          {
-            fit.add(i, j);
-            fit.add(j, i);
-          }
 
     // Half of the energy of a bond belongs to either end.
     std::vector<double> energy(families.n_owned(), 0.);
@@ -200,7 +185,7 @@ namespace perideal
         energy[j] += half;
     });
     const auto stress = partial_stress(families, force);
-    result.gradient   = fit.gradients();
+    result.gradient   = intact_gradients(families, force, displacement, nodes);
     for (const LocalIndex i : nodes)
       {
         result.stress.push_back(stress[i]);

@@ -10,6 +10,10 @@ from cracks import MODELS
 from page import Row
 from scenes import HERE, Failed, slope
 
+# The models whose cracks grow here, with the cells on which displacements are prescribed around the K field.
+GROWING = {"energy form": (MODELS["energy form"], 4),
+           "springs": (MODELS["springs"], 4),
+           "consistent form": (["Material/Model=extended ordinary", "Material/Form=consistent"], 1)}
 YOUNG = 70e9
 # Cells of growth between which loads are read: before, the process zone builds up; after, ligaments become short.
 FROM, TO = 2, 6
@@ -125,7 +129,7 @@ def handbook_growth(runner, name, model, columns, unstructured):
     size = width / columns
     modulus = YOUNG / (1 - (.25 if model == "springs" else .3)**2)
     energy = .6 * specimen.intensity(specimen.length)**2 / modulus
-    settings = [*MODELS[model], "Material/Softening=linear", f"Material/Fracture energy={energy}", "Solver/Tolerance=1e-6",
+    settings = [*GROWING[model][0], "Material/Softening=linear", f"Material/Fracture energy={energy}", "Solver/Tolerance=1e-6",
                 "Solver/Control=dissipated energy", f"Solver/Control end={(10 if specimen.tips == 1 else 14) * size * energy}",
                 f"Solver/Control step={STEP * specimen.tips * size * energy}", "Solver/Load steps=10"]
     if unstructured:
@@ -162,7 +166,8 @@ def field_growth(runner, model, cells, angle, unstructured):
     scene, size, energy = "growth/k_field.prm", 1 / cells, 8
     name = f"growth/k_field {model} {cells} {'unstructured' if unstructured else f'{degrees(angle):.0f}'}"
     c, s = cos(angle), sin(angle)
-    settings = [*MODELS[model], *field(angle), f"Mesh/Cells={cells}, {cells}", f"Cracks/tip/Direction={c}, {s}"]
+    chosen, layers = GROWING[model]
+    settings = [*chosen, *field(angle), f"Boundary conditions/Layers={layers}", f"Mesh/Cells={cells}, {cells}", f"Cracks/tip/Direction={c}, {s}"]
     if unstructured:
         mesh = runner.mesh("growth/plate.geo", f"k_field_{cells}", Left=-.5, Bottom=-.5, Width=1, Height=1, Size=size)
         settings += ["Mesh/Generator=", "Mesh/Corner=", f"Mesh/File={mesh}"]
@@ -193,7 +198,7 @@ def growth(runner, long):
     aside, by 9 mm within 10 mm with the energy form.
     """
     rows = []
-    for model, unstructured in ((model, unstructured) for unstructured in (False, True) for model in ("energy form", "springs")):
+    for model, unstructured in ((model, unstructured) for unstructured in (False, True) for model in GROWING):
         for angle in (0, atan(.5), radians(45)) if not unstructured else (0, ):
             sizes = (40, 80) if long else (40, )
             mesh = (f"{model}, {'unstructured' if unstructured else f'{degrees(angle):.1f} degrees to the grid'}; "

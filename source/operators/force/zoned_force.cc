@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/force/intact_gradients.h>
 #include <perideal/operators/force/zoned_force.h>
 #include <perideal/output/lasting_state.h>
 
@@ -122,6 +123,25 @@ namespace perideal
       extend_bonds(displacement);
     bonds->compute(force, displacement);
     force += of_cells;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<2, dim>> ZonedForce<dim>::gradients() const
+  {
+    std::vector<dealii::Tensor<2, dim>> result = cells->gradients();
+    std::vector<LocalIndex>             nodes;
+    for (LocalIndex i = 0; i < result.size(); ++i)
+      if (zone.share()[i] > 0)
+        nodes.push_back(i);
+    const Families<dim> &families = *whole->families;
+    NodalVector          displacement(families.make_partitioner(dim));
+    for (LocalIndex i = 0; i < families.n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        displacement.local_element(dim * i + d) = bonds->positions()[i].value[d] - families.position[i][d];
+    const auto in_zone = intact_gradients(families, *bonds, displacement, nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      result[nodes[k]] = in_zone[k];
+    return result;
   }
 
   template <int dim>
