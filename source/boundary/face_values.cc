@@ -14,7 +14,7 @@ namespace perideal
   {
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Entry entry{p, points[p].point, {}, {}, {}};
+        Entry entry{p, points[p].point, points[p].area.norm(), {}, {}, {}};
         entry.condition.fill(free);
         for (unsigned int k = 0; k < n_conditions; ++k)
           if (loads.conditions[k].acts_on(points[p].boundary))

@@ -35,8 +35,8 @@ namespace perideal
 
     /**
      * Records how far each condition has moved what it holds, "displacement of NAME along x [m]", for curves
-     * of reactions: the mean over its faces of the displacement that it prescribes, or over the nodes that it
-     * holds of what its velocity has come to. Components that it leaves free are null in the summary.
+     * of reactions: the mean over its faces of the displacement that it prescribes, or over the nodes or
+     * faces that it holds of what its velocity has come to. Components that it leaves free are null in the summary.
      */
     template <int dim>
     class DisplacementsRecorder : public Recorder<dim>
@@ -86,6 +86,12 @@ namespace perideal
                       entry.component,
                       entry.share,
                       problem.state.displacement[entry.node][entry.component]);
+        if (!loading.supports->hold_nodes())
+          for (const auto &entry : loading.supports->face_values()->entries())
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const auto k = entry.condition[d];
+                  k != FaceValues<dim>::free && conditions[k].velocity[d].is_present())
+                total.add(k, d, entry.area, entry.value[d]);
         dealii::Utilities::MPI::sum(total.sums, problem.run.communicator, total.sums);
         return total;
       }

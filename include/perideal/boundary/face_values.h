@@ -33,6 +33,8 @@ namespace perideal
       /// Number among the boundary points.
       unsigned int       point;
       dealii::Point<dim> position;
+      /// That the point stands for [m^2].
+      double area;
       /// Condition that prescribes each component, or `free`.
       std::array<unsigned int, dim> condition;
       /// Prescribed values [m]; 0 where free.
