@@ -19,6 +19,7 @@ import cracks
 import dynamics
 import growth
 import page
+import waves
 from scenes import ROOT, Failed, Runner
 
 # By name: the function that makes its rows, and what is known of its misses.
@@ -55,6 +56,9 @@ SPECIMENS = {
                  "stretches calibrated to G0 alone, brittle, 64.5 degrees from 19.5 us on; softening from 3 GPa on, just below the "
                  "brittle limit, 63.7; half as much G0 again, 63.8; exponential softening 62.2; horizon 5.01 58.2. Springs turn "
                  "less than the other models with brittle bonds, too."),
+    "waves": (waves.waves,
+              "the energy form holds whole cells where the consistent form has values at faces: the half of a wavelength and the bar "
+              "are shorter for it. In wide bodies its surfaces slow waves down."),
     "bar": (concrete.bar,
             "at gripped ends families lack bonds: the strain is larger there, and without a correction of surfaces (ordinary, "
             "springs) twice so; the bar gives way first at its grips. Collars that move with the strain of the bar show the strength "
