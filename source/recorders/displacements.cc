@@ -36,7 +36,8 @@ namespace perideal
     /**
      * Records how far each condition has moved what it holds, "displacement of NAME along x [m]", for curves
      * of reactions: the mean over its faces of the displacement that it prescribes, or over the nodes or
-     * faces that it holds of what its velocity has come to. Components that it leaves free are null in the summary.
+     * faces that it holds of what its velocity has come to. Components that it leaves free are null in the
+     * summary.
      */
     template <int dim>
     class DisplacementsRecorder : public Recorder<dim>

@@ -135,7 +135,9 @@ def handbook_growth(runner, name, model, columns, unstructured):
     if unstructured:
         mesh = runner.mesh("growth/plate.geo", f"{name}_{columns}", Left=left, Bottom=bottom, Width=width, Height=height,
                            Size=size)
-        settings += ["Mesh/Generator=", "Mesh/Corner=", f"Mesh/File={mesh}", "Boundary conditions/Traction treatment=transfer"]
+        settings += ["Mesh/Generator=", "Mesh/Corner=", f"Mesh/File={mesh}"]
+        if model != "consistent form":
+            settings.append("Boundary conditions/Traction treatment=transfer")
     else:
         settings += [f"Mesh/Cells={columns}, {round(height / size)}", f"Precracks/crack/Points={short_crack(name)}"]
     run = runner.run(f"stress_intensity/{name}.prm", f"growth/{name} {model} {columns} {'un' * unstructured}structured", settings)

@@ -89,9 +89,13 @@ namespace
     ZonedBox<dim>     box(0.04);
     ZonedForce<dim>  &force = *box.force;
     const NodalVector at    = box.pulled(0.012, 1e-4);
+    // Where bonds are not judged the force stays the same, unless it is told to change.
     force.judge_bonds(false);
     force.compute(box.value, at);
+    EXPECT_FALSE(force.fracture_zone().is_there());
+    EXPECT_TRUE(force.extend_bonds(at));
     EXPECT_TRUE(force.fracture_zone().is_there());
+    EXPECT_FALSE(force.extend_bonds(at));
     EXPECT_LT(force.fracture_zone().n_nodes(), box.mesh->triangulation.n_global_active_cells());
     force.compute(box.value, at);
     const NodalVector there = box.value;

@@ -8,8 +8,8 @@
 
 namespace perideal
 {
-  /// Returns (d u_a/d x_b) of owned nodes by FamilyQuadratics over those of their bonds that neither broke nor
-  /// softened: along the others the displacement jumps.
+  /// Returns (d u_a/d x_b) of owned nodes by FamilyQuadratics over those of their bonds that neither broke
+  /// nor softened: along the others the displacement jumps.
   /// @param displacement as FamilyQuadratics takes it [m]
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> intact_gradients(const Families<dim>           &families,
