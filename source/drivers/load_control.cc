@@ -120,10 +120,12 @@ namespace perideal
       }
     else
       {
-        double left = solver.control_end > 0 ? solver.control_end - reached : amount;
+        double left = solver.control_end > 0 ? solver.control_end - reached : amount, wanted = amount;
         if (solver.control == LoadControlName::gauge)
           left = largest_amount * (std::floor(reached / largest_amount + nearly_there) + 1.) - reached;
-        const double target = amount > (1. - nearly_there) * left ? left : amount;
+        else
+          wanted = std::min(amount, path.energy().strain);
+        const double target = wanted > (1. - nearly_there) * left ? left : wanted;
         announce((solver.control == LoadControlName::gauge ? "gauge by " : "dissipated energy by ") +
                  short_number(target));
         result = path.advance(target, progress);

@@ -87,8 +87,8 @@ namespace perideal
                       entry.component,
                       entry.share,
                       problem.state.displacement[entry.node][entry.component]);
-        if (!loading.supports->hold_nodes())
-          for (const auto &entry : loading.supports->face_values()->entries())
+        if (const auto &at_faces = loading.supports->face_values(); at_faces != nullptr)
+          for (const auto &entry : at_faces->entries())
             for (unsigned int d = 0; d < dim; ++d)
               if (const auto k = entry.condition[d];
                   k != FaceValues<dim>::free && conditions[k].velocity[d].is_present())

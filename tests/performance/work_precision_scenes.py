@@ -379,7 +379,8 @@ WAVE = Scene(
     "end. The program has no finite elements in motion: ratios are to the energy form. The published form with one "
     "point is the paper's way.",
     tuple(collar(cells + 14, 7, 1.) for cells in (25, 50, 100, 200)),
-    (Method("energy form", (EXTENDED, "Material/Form=energy")),
+    (Method("consistent form", (*CONSISTENT, *NO_COLLAR), accurate=True),
+     Method("energy form", (EXTENDED, "Material/Form=energy")),
      Method("energy form, exact parts", (EXTENDED, "Material/Form=energy", scheme("exact"))),
      Method("paper's way", PAPER, "paper"),
      Method("ordinary", (ORDINARY,)),

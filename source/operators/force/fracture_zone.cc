@@ -10,6 +10,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace perideal
@@ -56,24 +57,31 @@ namespace perideal
   }
 
   template <int dim>
+  double FractureZone<dim>::full_radius(const LocalIndex i) const
+  {
+    return core_radius + std::floor(families->horizon[i] / families->spacing[i]) + 1.;
+  }
+
+  template <int dim>
   bool FractureZone<dim>::grow(const std::vector<LocalIndex> &nodes)
   {
-    std::vector<std::pair<dealii::Point<dim>, double>> middles;
+    // Where nodes are, their spacing, and in spacings where chi ends to be one.
+    std::vector<std::pair<dealii::Point<dim>, std::pair<double, double>>> middles;
     for (const LocalIndex i : nodes)
-      middles.emplace_back(families->position[i], families->spacing[i]);
+      middles.emplace_back(families->position[i], std::make_pair(families->spacing[i], full_radius(i)));
     bool changed = false;
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(families->communicator, middles))
-      for (const auto &[middle, spacing] : of_rank)
-        visit_within(middle,
-                     (full_radius + ramp) * spacing,
-                     [&, spacing = spacing](const LocalIndex i, const double distance) {
-                       const double cells = distance / spacing;
-                       const double share =
-                         std::min(largest[i], std::min(1., (full_radius + ramp - cells) / ramp));
-                       changed = changed || share > chi[i];
-                       chi[i]  = std::max(chi[i], share);
-                       core[i] = core[i] || cells <= core_radius;
-                     });
+      for (const auto &[middle, sizes] : of_rank)
+        visit_within(
+          middle,
+          (sizes.second + ramp) * sizes.first,
+          [&, spacing = sizes.first, full = sizes.second](const LocalIndex i, const double distance) {
+            const double cells = distance / spacing;
+            const double share = std::min(largest[i], std::min(1., (full + ramp - cells) / ramp));
+            changed            = changed || share > chi[i];
+            chi[i]             = std::max(chi[i], share);
+            core[i]            = core[i] || cells <= core_radius;
+          });
     if (dealii::Utilities::MPI::max(changed ? 1u : 0u, families->communicator) == 0)
       return false;
     ++n_growths;

@@ -14,18 +14,17 @@ namespace perideal
 {
   /**
    * Knows where a body is one of bonds, which may break, and where it is one of cells: chi is the share of
-   * the bonds in the energy of each node. It is one within full_radius cells of nodes that came near to
-   * breaking, falls to zero over ramp more, and never falls with time. An abrupt change from one form to the
+   * the bonds in the energy of each node. It is one around nodes that came near to breaking, falls to zero
+   * over ramp more, and never falls with time. An abrupt change from one form to the
    * other would leave forces of its own, and bend cracks.
    */
   template <int dim>
   class FractureZone
   {
   public:
-    /// In spacings of the node in the middle: up to where chi is one, what follows until it is zero, and up
-    /// to where further nodes do not let the zone grow again. Bonds that fail have whole families of whole
-    /// ones around them: full_radius is larger than core_radius by four.
-    static constexpr double full_radius = 6., ramp = 3., core_radius = 2.;
+    /// In spacings of the node in the middle: what follows from where chi is one until it is zero, and up to
+    /// where further nodes do not let the zone grow again.
+    static constexpr double ramp = 3., core_radius = 2.;
 
     /// @param held where prescribed values at faces of this rank act on cells, with the spacing of these:
     /// bonds do not feel them, so that chi is zero there and rises over ramp. Collective.
@@ -54,6 +53,9 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
+    /// Up to where chi is one around an owned node, in its spacings: bonds that fail have whole families of
+    /// whole ones around them.
+    double full_radius(const LocalIndex i) const;
     using Entry = std::pair<dealii::Point<dim>, LocalIndex>;
 
     /// Calls visit(owned node, distance) for those within a radius [m].
