@@ -36,8 +36,9 @@ CHOICES = [
      "tensor_manufactured_2d", ["moment corrected", "one point", "one point, exact parts"]),
     ("large strain", "`Model = correspondence`, `Form = consistent`", "hyperelastic_bar",
      ["consistent form", "FEM Q1", "correspondence, families"]),
-    ("motion", "`Form = energy`, one point (the defaults there)", "standing_wave",
-     ["energy form", "ordinary", "springs, exact parts", "springs"]),
+    ("motion", "`Form = energy`, one point (the defaults there); `Form = consistent` has a quarter of the error on the same "
+     "mesh, and about the same time to the same error", "standing_wave",
+     ["energy form", "consistent form", "ordinary", "springs, exact parts", "springs"]),
 ]
 STYLES = {"FEM Q1": 'linewidth 4 linecolor rgb "black" pointtype 5 dashtype 1',
           "FEM Q2": 'linewidth 4 linecolor rgb "#909090" pointtype 7 dashtype "_"'}

@@ -381,14 +381,14 @@ WAVE = Scene(
     tuple(collar(cells + 14, 7, 1.) for cells in (25, 50, 100, 200)),
     (Method("consistent form", (*CONSISTENT, *NO_COLLAR), accurate=True),
      Method("energy form", (EXTENDED, "Material/Form=energy")),
-     Method("energy form, exact parts", (EXTENDED, "Material/Form=energy", scheme("exact"))),
+     Method("energy form, exact parts", (EXTENDED, "Material/Form=energy", scheme("exact")), drawn=False),
      Method("paper's way", PAPER, "paper"),
      Method("ordinary", (ORDINARY,)),
      Method("ordinary, partial volume", (ORDINARY, scheme("partial volume"))),
      Method("springs", (SPRINGS,)),
      Method("springs, partial volume", (SPRINGS, scheme("partial volume"))),
      Method("springs, exact parts", (SPRINGS, scheme("exact"))),
-     Method("tensors, one point", (TENSORS, "Material/Form=one point")),
+     Method("tensors, one point", (TENSORS, "Material/Form=one point"), drawn=False),
      Method("tensors, moment corrected", (TENSORS, "Material/Form=moment corrected"))),
     (1e-1, 1e-2, 1e-3), base="energy form")
 
