@@ -90,6 +90,7 @@ set(perideal_sources
   neighbourhood/halo.cc
   neighbourhood/point_tree.cc
   neighbourhood/precrack.cc
+  neighbourhood/whole_families.cc
 
   quadrature/adaptive_integration.cc
   quadrature/bond_volume.cc
@@ -256,6 +257,7 @@ set(perideal_sources
   problem/advice_cracks.cc
   problem/advice_surfaces.cc
   problem/body.cc
+  problem/bond_limits.cc
   problem/cell_gradients.cc
   problem/crack_driving.cc
   problem/description.cc

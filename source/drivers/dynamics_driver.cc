@@ -222,8 +222,9 @@ namespace perideal
       /// Hands the present step to the recorders: rows and frames at their times.
       void observe(const std::uint64_t n)
       {
-        const bool all_broke =
-          dynamics->n_broken_now() > 0 && dynamics->n_broken() == problem.discretisation.families->n_bonds();
+        // Beside cells there are bonds only where they may break.
+        const bool all_broke = !has_fracture_zone(problem.parameters) && dynamics->n_broken_now() > 0 &&
+                               dynamics->n_broken() == problem.discretisation.families->n_bonds();
         const std::size_t frames = problem.parameters.frames;
         Step<dim>         step;
         step.number       = n;
@@ -267,7 +268,7 @@ namespace perideal
         motion_check.look(*dynamics, step.energy, this->largest_energy, steps.stable);
         store();
         step.reactions = problem.loading.supports->reactions(dynamics->reaction(), dynamics->face_reaction());
-        step.momentum  = dynamics->momentum();
+        step.momentum  = {dynamics->momentum(), dynamics->angular_momentum()};
       }
 
       void store()

@@ -151,10 +151,11 @@ namespace perideal
 
       std::vector<bool> floating_nodes() const
       {
-        const BondList   &bonds = problem.force->bond_list();
+        const BondList   &bonds = problem.force->body_bonds();
         std::vector<bool> is_lost(bonds.n_slots(), false);
         for (const auto &bond : problem.force->lost_bonds())
-          is_lost[bond.slot] = true;
+          if (const BondIndex slot = bonds.find(bond.near, bond.far); slot != BondList::no_slot)
+            is_lost[slot] = true;
         return find_floating_nodes(
           *problem.discretisation.families,
           bonds,

@@ -39,6 +39,11 @@ namespace perideal
     return at != end && *at == far ? at - neighbour.begin() : no_slot;
   }
 
+  LocalIndex BondList::near_end(const BondIndex slot) const
+  {
+    return std::upper_bound(row.begin(), row.end(), slot) - 1 - row.begin();
+  }
+
   std::size_t BondList::memory_consumption() const
   {
     return dealii::MemoryConsumption::memory_consumption(row) +

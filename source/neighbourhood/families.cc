@@ -82,16 +82,18 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  Families<dim>::Families(const NodeCloud<dim> &nodes, const std::shared_ptr<const VolumeRule<dim>> &rule)
+  Families<dim>::Families(const NodeCloud<dim>                         &nodes,
+                          const std::shared_ptr<const VolumeRule<dim>> &rule,
+                          const double                                  listed)
     : NodeArrays<dim>(nodes)
     , volume_rule(rule)
     , communicator(nodes.communicator)
     , n_owned_nodes(nodes.size())
     , first_global(nodes.first_global)
     , n_global(nodes.n_global)
+    , what_is_listed{listed, {}}
   {
     search(nodes);
-    drop_unused_ghosts();
     count();
   }
 
@@ -117,13 +119,14 @@ namespace perideal
         if (!shape.empty())
           shape.push_back(ghost.shape);
         spacing.push_back(ghost.spacing);
-        if (nodes.margin > 0)
+        if (margin > 0)
           cell_radius.push_back(ghost.cell_radius);
       }
     const PointTree<dim> ghost_tree(ghost_boxes);
 
     row.assign(1, 0);
     row.reserve(n_owned_nodes + 1);
+    std::vector<bool>                                              used(ghost_number.size(), false);
     std::vector<LocalIndex>                                        leaves;
     std::array<std::vector<LocalIndex>, PointTree<dim>::leaf_size> family;
     for (LocalIndex leaf = 0; leaf < tree.n_leaves(); ++leaf)
@@ -149,44 +152,49 @@ namespace perideal
         collect(ghost_tree, n_owned_nodes);
         for (LocalIndex i = begin; i < end; ++i)
           {
-            keep_within_horizons(i, family[i - begin]);
-            neighbour.insert(neighbour.end(), family[i - begin].begin(), family[i - begin].end());
+            auto &members = family[i - begin];
+            // The search takes more where horizons are no spheres and where they may cut cells.
+            if (!shape.empty() || !cell_radius.empty())
+              keep_if(members, [&](const LocalIndex j) { return are_members(i, j); });
+            for (auto j = members.rbegin(); j != members.rend() && *j >= n_owned_nodes; ++j)
+              used[*j - n_owned_nodes] = true;
+            if (const double share = listed(); share < 1)
+              keep_if(members, [&](const LocalIndex j) { return are_within(i, j, share); });
+            neighbour.insert(neighbour.end(), members.begin(), members.end());
             row.push_back(neighbour.size());
           }
       }
     neighbour.shrink_to_fit();
+    drop_unused_ghosts(used);
   }
 
   template <int dim>
-  void Families<dim>::keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const
+  bool Families<dim>::are_within(const LocalIndex i, const LocalIndex j, const double share) const
   {
-    const dealii::Point<dim> centre = position[i];
+    const dealii::Tensor<1, dim> bond = position[j] - position[i];
     if (!shape.empty())
-      {
-        const dealii::Tensor<2, dim> own = shape[i];
-        keep_if(members, [&](const LocalIndex j) DEAL_II_ALWAYS_INLINE {
-          const dealii::Tensor<1, dim> bond = position[j] - centre;
-          return (own * bond).norm_square() <= 1. || (shape[j] * bond).norm_square() <= 1.;
-        });
-      }
-    else if (!cell_radius.empty())
-      keep_if(members, [&](const LocalIndex j) {
-        const double length = position[j].distance(centre);
-        return (length < horizon[i] + cell_radius[j] && volume_rule->share(*this, i, j) != 0) ||
-               (length < horizon[j] + cell_radius[i] && volume_rule->share(*this, j, i) != 0);
-      });
+      return (shape[i] * bond).norm_square() <= share * share ||
+             (shape[j] * bond).norm_square() <= share * share;
+    const double radius = (1. + this->round_off) * share * std::max(horizon[i], horizon[j]);
+    return bond.norm_square() <= radius * radius;
   }
 
   template <int dim>
-  void Families<dim>::drop_unused_ghosts()
+  bool Families<dim>::are_members(const LocalIndex i, const LocalIndex j) const
+  {
+    if (cell_radius.empty())
+      return are_within(i, j, 1.);
+    const double length = position[j].distance(position[i]);
+    return (length < horizon[i] + cell_radius[j] && volume_rule->share(*this, i, j) != 0) ||
+           (length < horizon[j] + cell_radius[i] && volume_rule->share(*this, j, i) != 0);
+  }
+
+  template <int dim>
+  void Families<dim>::drop_unused_ghosts(const std::vector<bool> &used)
   {
     if (ghost_number.empty())
       return;
-    const LocalIndex  n_candidates = ghost_number.size();
-    std::vector<bool> used(n_candidates, false);
-    for (const LocalIndex j : neighbour)
-      if (j >= n_owned_nodes)
-        used[j - n_owned_nodes] = true;
+    const LocalIndex        n_candidates = ghost_number.size();
     std::vector<LocalIndex> new_number(n_candidates);
     LocalIndex              n_used = 0;
     for (LocalIndex g = 0; g < n_candidates; ++g)

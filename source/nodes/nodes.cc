@@ -81,6 +81,12 @@ namespace perideal
       "are weighed once and share their weights, where many are; false weighs each: for "
       "comparisons of time and memory");
     prm.add_parameter(
+      "Families on demand",
+      families_on_demand,
+      "Whether the consistent form, where something can break, makes whole families of the "
+      "nodes only that a crack comes near; false: of all at the beginning, for comparisons of "
+      "time and memory");
+    prm.add_parameter(
       "Perturbation",
       perturbation,
       "Random cloud of points: how far nodes lie off the centroids of their cells, whose volumes "
@@ -107,11 +113,8 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<1, dim> NodeCloud<dim>::reach(const LocalIndex i) const
+  dealii::Tensor<1, dim> NodeArrays<dim>::reach(const LocalIndex i) const
   {
-    // A hair more, so that on regular meshes the nodes at the rim of a horizon of whole cells are members,
-    // whatever way they are rounded.
-    constexpr double       round_off = 1e-9;
     dealii::Tensor<1, dim> result;
     if (shape.empty())
       for (int d = 0; d < dim; ++d)
@@ -274,6 +277,7 @@ namespace perideal
     this->set_cell_radius(cell_radii(mesh));
   }
 
+  PERIDEAL_INSTANTIATE_CLASS(NodeArrays)
   PERIDEAL_INSTANTIATE_CLASS(NodeCloud)
   PERIDEAL_INSTANTIATE_CLASS(Nodes)
 } // namespace perideal

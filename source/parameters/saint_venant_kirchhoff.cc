@@ -68,7 +68,17 @@ namespace perideal
     private:
       static SymmetricTensor<2, dim> green_strain(const Tensor<2, dim> &H)
       {
-        return symmetrize(H + 0.5 * transpose(H) * H);
+        // Entry by entry: the hot loop of motions.
+        SymmetricTensor<2, dim> result;
+        for (int i = 0; i < dim; ++i)
+          for (int j = i; j < dim; ++j)
+            {
+              double product = 0;
+              for (int k = 0; k < dim; ++k)
+                product += H[k][i] * H[k][j];
+              result[i][j] = 0.5 * (H[i][j] + H[j][i] + product);
+            }
+        return result;
       }
 
       const ElasticSolid<dim> solid;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
+#include <perideal/operators/force/zoned_force.h>
 #include <perideal/output/summary.h>
 #include <perideal/problem/description.h>
 
@@ -68,6 +69,12 @@ namespace perideal
                           {"indefinite", problem.discretisation.counts.indefinite}};
     if (problem.discretisation.counts.different > 0)
       result["families"]["different"] = problem.discretisation.counts.different;
+    if (const auto *zoned = dynamic_cast<const ZonedForce<dim> *>(problem.force.get()))
+      {
+        const auto whole            = zoned->whole_families();
+        result["families"]["whole"] = {
+          {"nodes", whole.nodes}, {"bytes", whole.bytes}, {"seconds", whole.seconds}};
+      }
     if (problem.discretisation.family_stiffness)
       {
         Json rows;
@@ -96,6 +103,9 @@ namespace perideal
     const GlobalIndex families  = problem.loading.supports->images()->nodes().n_global;
     if (different > 0 && different < families)
       result["weights of families equal to others"] = families - different;
+    if (const auto *zoned = dynamic_cast<const ZonedForce<dim> *>(problem.force.get()))
+      result["whole families of nodes far from cracks"] =
+        problem.body.nodes->n_global - zoned->whole_families().nodes;
     if (dealii::Utilities::MPI::n_mpi_processes(problem.run.communicator) == 1)
       result["halo exchange (one rank)"] = 1;
     if (families == problem.body.nodes->n_global)

@@ -40,7 +40,13 @@ namespace perideal
   template <int dim>
   void DiscreteBody<dim>::find_families(const SceneParameters &parameters, const NodeCloud<dim> &cloud)
   {
-    families = std::make_shared<Families<dim>>(cloud, create_volume_rule<dim>(parameters.quadrature));
+    // Beside the consistent form whole families are made of what may break, and the others hold what
+    // stabilises cells.
+    const double listed =
+      has_fracture_zone(parameters) ?
+        std::min(1., consistent_form().defaults.horizon_factor / parameters.nodes.horizon_factor) :
+        1.;
+    families = std::make_shared<Families<dim>>(cloud, create_volume_rule<dim>(parameters.quadrature), listed);
     if (families->statistics().min == 0)
       throw InputError("a node has no neighbour within its horizon")
         .parameter("Nodes/Horizon factor")
@@ -85,15 +91,14 @@ namespace perideal
     consistent_bonds = std::make_shared<ConsistentBonds<dim>>(
       families,
       *gradients.polynomials,
-      create_consistent<dim>(body.parameters.model, body.parameters.nodes.horizon_factor),
+      create_consistent<dim>(body.parameters.model,
+                             families->listed() * body.parameters.nodes.horizon_factor),
       solid_of,
       is_cut);
     bonds =
       std::make_shared<ConsistentOperator<dim>>(families, gradients.moments, consistent_bonds, solid_of);
-    if (!has_fracture_zone(body.parameters))
-      return;
-    model   = create_model<dim>(body.parameters.model.in_zone(), body.mesh->thickness);
-    weights = weigh_bonds<dim>(families, *model, solid_of, {{}, true, false});
+    if (has_fracture_zone(body.parameters))
+      model = create_model<dim>(body.parameters.model.in_zone(), body.mesh->thickness);
   }
 
   template <int dim>
@@ -150,15 +155,19 @@ namespace perideal
   }
 
   template <int dim>
-  std::unique_ptr<BondForce<dim>> DiscreteBody<dim>::create_force() const
+  std::unique_ptr<BondForce<dim>> DiscreteBody<dim>::create_force(const Body<dim> &body) const
   {
     if (consistent_bonds)
       {
         auto cells =
           std::make_unique<ConsistentForce<dim>>(families, gradients.moments, consistent_bonds, laws);
-        if (weights)
-          return std::make_unique<ZonedForce<dim>>(std::move(cells), weights, held_faces());
-        return cells;
+        if (!model)
+          return cells;
+        const auto weigh = [this, &body](const std::shared_ptr<const Families<dim>> &whole) {
+          return weigh_bonds<dim>(whole, *model, solids_of_model(body), {{}, true, false});
+        };
+        return std::make_unique<ZonedForce<dim>>(
+          std::move(cells), families, weigh, held_faces(), !body.parameters.nodes.families_on_demand);
       }
     if (correspondence)
       return std::make_unique<CorrespondenceForce<dim>>(families, correspondence, laws);
@@ -166,9 +175,21 @@ namespace perideal
   }
 
   template <int dim>
+  std::shared_ptr<const Families<dim>> DiscreteBody<dim>::sample_of_whole_families() const
+  {
+    if (families->is_whole(0))
+      return families;
+    constexpr LocalIndex n_sampled = 500;
+    std::vector<bool>    chosen(families->n_local(), false);
+    for (LocalIndex i = 0; i < families->n_owned(); i += 1 + families->n_owned() / n_sampled)
+      chosen[i] = true;
+    return families->whole_families(families->with_members(chosen));
+  }
+
+  template <int dim>
   std::shared_ptr<TangentOperator<dim>> DiscreteBody<dim>::create_tangent() const
   {
-    if (consistent_bonds && weights)
+    if (consistent_bonds && model)
       return std::make_shared<ZonedTangent<dim>>(std::static_pointer_cast<ConsistentOperator<dim>>(bonds));
     // Of models that follow a law, the operator at rest is the tangent.
     if (const auto tangent = std::dynamic_pointer_cast<TangentOperator<dim>>(bonds); tangent)

@@ -96,7 +96,7 @@ namespace perideal
   void Problem<dim>::make_force()
   {
     const Timings::Scope scope(run.timings, "setup");
-    force = discretisation.create_force();
+    force = discretisation.create_force(body);
     force->register_state(lasting);
   }
 

@@ -93,7 +93,7 @@ namespace perideal
       Json fragments() const
       {
         return find_fragments(*problem.discretisation.families,
-                              problem.force->bond_list(),
+                              problem.force->body_bonds(),
                               problem.body.nodes->spacing,
                               total_damage(*problem.force),
                               problem.parameters.cracks.damage);

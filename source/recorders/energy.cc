@@ -72,10 +72,13 @@ namespace perideal
         record.summary["energy"] = summary;
         if (!kind.has_motion)
           return;
-        Json momentum = Json::array();
+        Json momentum = Json::array(), angular = Json::array();
         for (int d = 0; d < dim; ++d)
-          momentum.push_back(step.momentum[d]);
-        record.summary["momentum"] = momentum;
+          momentum.push_back(step.momentum.linear[d]);
+        for (int d = dim == 2 ? 2 : 0; d < 3; ++d)
+          angular.push_back(step.momentum.angular[d]);
+        record.summary["momentum"]         = momentum;
+        record.summary["angular_momentum"] = angular;
       }
 
       std::string describe(const Json &summary, const bool) const override

@@ -167,5 +167,23 @@ namespace perideal
     return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
   }
 
+  template <int dim>
+  dealii::Tensor<1, 3> ExplicitDynamics<dim>::angular_momentum() const
+  {
+    const NodeRecord    *y = bonds.positions();
+    dealii::Tensor<1, 3> result;
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      {
+        dealii::Tensor<1, 3> arm, moving;
+        for (int d = 0; d < dim; ++d)
+          {
+            arm[d]    = y[i].value[d];
+            moving[d] = mass[i] * velocity.local_element(dim * i + d);
+          }
+        result += cross_product_3d(arm, moving);
+      }
+    return dealii::Utilities::MPI::sum(result, displacement.get_mpi_communicator());
+  }
+
   PERIDEAL_INSTANTIATE_CLASS(ExplicitDynamics)
 } // namespace perideal

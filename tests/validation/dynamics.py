@@ -8,7 +8,9 @@ from scenes import slope
 # By name, the models and horizons whose cracks branch.
 BRANCHING = {**{f"{model}, horizon 3.01": settings for model, settings in MODELS.items()},
              **{f"{model}, horizon 5.01": [*MODELS[model], "Nodes/Horizon factor=5.01"]
-                for model in ("energy form", "springs")}}
+                for model in ("energy form", "springs")},
+             "consistent form, horizon 5.01": ["Material/Model=extended ordinary", "Material/Form=consistent",
+                                               "Nodes/Horizon factor=5.01"]}
 # Speed of Rayleigh waves of branching/branching.prm [m/s].
 RAYLEIGH = 2119
 

@@ -32,6 +32,9 @@ namespace perideal
     /// Slot of the bond of an owned node with another local one; no_slot: there is none.
     BondIndex find(const LocalIndex i, const LocalIndex j) const;
 
+    /// The row that holds a slot.
+    LocalIndex near_end(const BondIndex slot) const;
+
     std::size_t memory_consumption() const;
 
     /// Slots of row i: [row[i], row[i+1]), a multiple of n_lanes.

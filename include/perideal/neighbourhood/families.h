@@ -21,6 +21,9 @@ namespace perideal
    * bond has two ends (XOSB eq. 71). Where the cloud knows how far cells reach, families hold the cells that
    * horizons cut: those of which a volume rule counts a share, at either end.
    *
+   * Families may list the members within a share of their horizons only, and whole families be made from them
+   * where they are needed, in an object of its own with the same local numbers.
+   *
    * Local numbers, by which the arrays of the nodes go: owned nodes first, as in the cloud, then ghosts, the
    * nodes of other ranks that share a bond with an owned one, by ascending global number.
    */
@@ -36,11 +39,34 @@ namespace perideal
     using NodeArrays<dim>::spacing;
     using NodeArrays<dim>::cell_radius;
     using NodeArrays<dim>::cell;
+    using NodeArrays<dim>::margin;
 
     /// Exchanges the halo and searches. Collective.
     /// @param rule how much of its members' volumes a family counts; null: all
+    /// @param listed up to which share of horizons members are listed [-]; ghosts are those of whole ones
     explicit Families(const NodeCloud<dim>                         &nodes,
-                      const std::shared_ptr<const VolumeRule<dim>> &rule = nullptr);
+                      const std::shared_ptr<const VolumeRule<dim>> &rule   = nullptr,
+                      const double                                  listed = 1.);
+
+    /// Returns the same nodes with the whole families of some, in place of what is listed here: bonds with at
+    /// least one end among them. Collective.
+    /// @param chosen by local node, of all ranks alike
+    std::shared_ptr<const Families> whole_families(const std::vector<bool> &chosen) const;
+
+    /// Returns these nodes and the members of their whole families, by local node. Collective.
+    std::vector<bool> with_members(const std::vector<bool> &chosen) const;
+
+    /// Whether all members of an owned node are listed.
+    bool is_whole(const LocalIndex i) const
+    {
+      return what_is_listed.whole.empty() ? what_is_listed.share == 1. : what_is_listed.whole[i];
+    }
+
+    /// Up to which share of horizons members are listed [-].
+    double listed() const { return what_is_listed.share; }
+
+    /// Whether two local nodes are members of each other's whole families.
+    bool are_members(const LocalIndex i, const LocalIndex j) const;
 
     LocalIndex n_owned() const { return n_owned_nodes; }
     LocalIndex n_local() const { return static_cast<LocalIndex>(position.size()); }
@@ -89,18 +115,31 @@ namespace perideal
 
   private:
     void search(const NodeCloud<dim> &nodes);
-    /// Drops members of which neither horizon holds the other, where the search takes more: horizons that
-    /// are no spheres, and cells that horizons may cut.
-    void keep_within_horizons(const LocalIndex i, std::vector<LocalIndex> &members) const;
-    void drop_unused_ghosts();
+    /// Whether one of two local nodes is within a share of the other's horizon.
+    bool are_within(const LocalIndex i, const LocalIndex j, const double share) const;
+    /// @param used by ghost
+    void drop_unused_ghosts(const std::vector<bool> &used);
     void count();
+
+    /// Calls visit(i, j) for each chosen local node i and each local j of its whole family; of ghosts for
+    /// those members that are owned.
+    template <typename Visit>
+    void visit_members(const std::vector<bool> &chosen, const Visit &visit) const;
 
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
     std::vector<BondIndex>  row;
     std::vector<LocalIndex> neighbour;
-    GlobalIndex             n_bonds_of_all = 0;
-    Statistics              sizes;
+    /// What of the families is listed: members up to a share of horizons, or whole families of owned nodes,
+    /// where this is not empty.
+    struct Listed
+    {
+      double            share = 1.;
+      std::vector<bool> whole;
+    };
+    Listed      what_is_listed;
+    GlobalIndex n_bonds_of_all = 0;
+    Statistics  sizes;
   };
 } // namespace perideal
 

@@ -39,6 +39,8 @@ namespace perideal
     double perturbation = 0.;
     /// Whether identical families share their weights, which are then computed and stored once.
     bool share_equal_families = true;
+    /// Whether the consistent form makes whole families where cracks come near only.
+    bool families_on_demand = true;
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError when the factor cannot make families, or a perturbation takes nodes out of cells.
@@ -68,6 +70,16 @@ namespace perideal
     std::vector<double> cell_radius;
     /// The nodes' cells; empty where no volume rule needs them.
     std::vector<CellVertices<dim>> cell;
+    /// The largest cell_radius over the horizon of all ranks [-].
+    double margin = 0;
+
+    /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
+    /// cells that horizons cut, far enough for these.
+    dealii::Tensor<1, dim> reach(const LocalIndex i) const;
+
+    /// A hair by which spherical horizons are larger, so that on regular meshes the nodes at the rim of a
+    /// horizon of whole cells are members, whatever way they are rounded.
+    static constexpr double round_off = 1e-9;
   };
 
   /**
@@ -81,12 +93,9 @@ namespace perideal
     using NodeArrays<dim>::horizon;
     using NodeArrays<dim>::shape;
     using NodeArrays<dim>::cell_radius;
+    using NodeArrays<dim>::margin;
 
     LocalIndex size() const { return static_cast<LocalIndex>(position.size()); }
-
-    /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
-    /// cells that horizons cut, far enough for these.
-    dealii::Tensor<1, dim> reach(const LocalIndex i) const;
 
     /// Sets first_global and n_global from the sizes on all ranks. Collective.
     void number();
@@ -94,8 +103,6 @@ namespace perideal
     /// Sets cell_radius and what follows from it. Horizons must be spheres. Collective.
     void set_cell_radius(std::vector<double> radius);
 
-    /// The largest cell_radius over the horizon of all ranks [-].
-    double margin = 0;
     /// Whether neighbours need to know cells. The same on all ranks.
     bool has_cells = false;
 

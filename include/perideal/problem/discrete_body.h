@@ -56,8 +56,13 @@ namespace perideal
     /// material, or as stiff as whole families.
     SolidsByMaterial<dim> compared_solids(const Body<dim> &body, const Mesh<dim> &mesh) const;
 
-    /// Makes the nonlinear force of the bonds, none of them broken.
-    std::unique_ptr<BondForce<dim>> create_force() const;
+    /// Makes the nonlinear force of the bonds, none of them broken. Body and this must outlive it.
+    /// Collective.
+    std::unique_ptr<BondForce<dim>> create_force(const Body<dim> &body) const;
+
+    /// Returns the families with what bonds they would have; of bodies where whole ones are made on demand
+    /// those of some nodes. Collective.
+    std::shared_ptr<const Families<dim>> sample_of_whole_families() const;
 
     /// Makes the tangent of that force.
     std::shared_ptr<TangentOperator<dim>> create_tangent() const;
@@ -67,7 +72,8 @@ namespace perideal
     /// Where the scene needs gradients: the consistent form, strains and stresses do.
     CellGradients<dim> gradients;
 
-    /// What the model made of the bonds; of the consistent form of those that may break, else none.
+    /// What the model made of the bonds. The consistent form has a model only of bonds that may break, and
+    /// weighs them where they are made.
     std::unique_ptr<LinearModel<dim>>  model;
     std::shared_ptr<BondWeights<dim>>  weights;
     std::shared_ptr<BondOperator<dim>> bonds;

@@ -30,11 +30,6 @@ namespace perideal
     /// @throws InputError naming a precrack that crosses no bond.
     void check_precracks(const Body<dim> &body, const Families<dim> &families) const;
 
-    /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
-    /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
-    static double
-    critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
-
     /// What the bonds of the body break at.
     struct Breaking
     {
@@ -43,7 +38,8 @@ namespace perideal
       /// What cracks take of the fracture energy, by direction; none where a formula gives the stretches.
       std::optional<EnergyByDirection> share_of_energy;
     };
-    /// Looks at all bonds of a scene that breaks them by stretch. Collective.
+    /// Looks at the bonds of a scene that breaks them by stretch, where they are made on demand at those of
+    /// some nodes. Collective.
     static Breaking breaking(const Body<dim> &body, const DiscreteBody<dim> &discretisation);
 
     /// Cuts what precracks cross and gives bonds their limits. Collective.

@@ -29,8 +29,13 @@ namespace perideal
     unsigned int    halvings = 0;
     /// Bonds that broke until now and in this step, and nodes that came loose.
     GlobalIndex n_broken = 0, newly_broken = 0, n_floating = 0;
-    /// Of the body in dynamics [kg m/s].
-    dealii::Tensor<1, dim> momentum;
+    /// Of the body in dynamics [kg m/s], and about the origin [kg m^2/s].
+    struct Momentum
+    {
+      dealii::Tensor<1, dim> linear;
+      dealii::Tensor<1, 3>   angular;
+    };
+    Momentum momentum;
     /// Whether it is the last one of the run.
     bool is_last = false;
   };

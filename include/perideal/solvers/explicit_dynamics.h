@@ -90,6 +90,9 @@ namespace perideal
     EnergyBudget energy() const;
     /// Momentum of the body half a step later, after evaluate() [kg m/s]. Collective.
     dealii::Tensor<1, dim> momentum() const;
+    /// Angular momentum about the origin half a step later, after evaluate() [kg m^2/s]; in 2-D about z. The
+    /// scheme keeps it where forces have no moment. Collective.
+    dealii::Tensor<1, 3> angular_momentum() const;
     /// Forces of the supports on nodes at the present time [N], zero in free components.
     const NodalVector &reaction() const { return work.support_force; }
     /// Forces of the supports at the prescribed faces at the present time [N], by entry.

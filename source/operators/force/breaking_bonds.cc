@@ -2,7 +2,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/output/lasting_state.h>
-#include <perideal/quadrature/bond_volume.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
@@ -31,18 +30,12 @@ namespace perideal
     , bonds(bonds)
     , rest_length(bonds.n_slots(), 0.)
     , regions(*families, bonds, has_sums)
+    , volumes(families, bonds)
   {
     this->partitioner = families->make_partitioner(dim);
     ghosted.reinit(this->partitioner);
     position.resize(families->n_local(), NodeRecord{});
     forces.resize(families->n_local(), NodeRecord{});
-
-    volumes.family.assign(families->n_owned(), 0.);
-    volumes.broken = volumes.cut = volumes.family;
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (bonds.neighbour[slot] != i)
-          lose(slot, i, volumes.family);
     measure_rest_lengths();
   }
 
@@ -136,21 +129,12 @@ namespace perideal
             is_cut(families->position[i], families->position[bonds.neighbour[slot]]))
           {
             remove(slot);
-            lose(slot, i, volumes.cut);
+            volumes.add(volumes.cut, i, bonds.neighbour[slot]);
             this->lost.push_back({slot, i, bonds.neighbour[slot]});
             ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
     n_cut = this->lost.size();
     return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
-  }
-
-  template <int dim>
-  void BreakingBonds<dim>::lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const
-  {
-    const LocalIndex j = bonds.neighbour[slot];
-    volume[i] += counted_volume(*families, i, j);
-    if (j < families->n_owned())
-      volume[j] += counted_volume(*families, j, i);
   }
 
   template <int dim>
@@ -176,7 +160,7 @@ namespace perideal
   {
     this->lost.push_back({slot, near, bonds.neighbour[slot]});
     remove(slot);
-    lose(slot, near, volumes.broken);
+    volumes.add(volumes.broken, near, bonds.neighbour[slot]);
   }
 
   template <int dim>
@@ -190,57 +174,60 @@ namespace perideal
   }
 
   template <int dim>
-  LocalIndex BreakingBonds<dim>::near_end(const BondIndex slot) const
-  {
-    return std::upper_bound(bonds.row.begin(), bonds.row.end(), slot) - 1 - bonds.row.begin();
-  }
-
-  template <int dim>
-  void BreakingBonds<dim>::register_state(LastingState &state)
+  void BreakingBonds<dim>::register_bonds(LastingState &state, const std::function<BreakingBonds &()> &bonds)
   {
     state.add_bond_array(
       "broken bonds",
       "-",
       0,
-      [this] {
-        return BondArray{"-", 0, broken_bonds(), {}};
+      [bonds] {
+        return BondArray{"-", 0, bonds().memory().broken, {}};
       },
-      [this](const BondArray &array) { restore_broken(array.bonds); });
+      [bonds](const BondArray &array) {
+        bonds().restore({array.bonds, {}, {}});
+      });
     // Whether bonds soften is not known yet.
     state.add_bond_array(
       "softened bonds",
       "-",
       2,
-      [this] {
-        BondArray result{"-", 2, {}, {}};
-        for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-          for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-            if (const double share = softening.share(slot);
-                bonds.neighbour[slot] != i && share > 0 && share < 1)
-              {
-                result.bonds.push_back({i, bonds.neighbour[slot]});
-                result.values.insert(result.values.end(), {critical_stretch[slot], share});
-              }
-        return result;
+      [bonds] {
+        const Memory memory = bonds().memory();
+        return BondArray{"-", 2, memory.softened, memory.stretch_and_share};
       },
-      [this](const BondArray &array) {
-        for (std::size_t b = 0; b < array.bonds.size(); ++b)
-          if (const BondIndex slot = bonds.find(array.bonds[b].near, array.bonds[b].far);
-              softening.softens() && slot != BondList::no_slot && carries_force(slot))
-            {
-              critical_stretch[slot] = static_cast<float>(array.values[2 * b]);
-              softening.restore(slot, array.values[2 * b + 1]);
-            }
+      [bonds](const BondArray &array) {
+        bonds().restore({{}, array.bonds, array.values});
       });
   }
 
   template <int dim>
-  std::vector<BondEnds> BreakingBonds<dim>::broken_bonds() const
+  typename BreakingBonds<dim>::Memory BreakingBonds<dim>::memory() const
   {
-    std::vector<BondEnds> result;
+    Memory result;
     for (std::size_t k = n_cut; k < this->lost.size(); ++k)
-      result.push_back({this->lost[k].near, this->lost[k].far});
+      result.broken.push_back({this->lost[k].near, this->lost[k].far});
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const double share = softening.share(slot); bonds.neighbour[slot] != i && share > 0 && share < 1)
+          {
+            result.softened.push_back({i, bonds.neighbour[slot]});
+            result.stretch_and_share.insert(result.stretch_and_share.end(), {critical_stretch[slot], share});
+          }
     return result;
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::restore(const Memory &earlier)
+  {
+    restore_broken(earlier.broken);
+    n_lost_before = this->lost.size();
+    for (std::size_t b = 0; b < earlier.softened.size(); ++b)
+      if (const BondIndex slot = bonds.find(earlier.softened[b].near, earlier.softened[b].far);
+          softening.softens() && slot != BondList::no_slot && carries_force(slot))
+        {
+          critical_stretch[slot] = static_cast<float>(earlier.stretch_and_share[2 * b]);
+          softening.restore(slot, earlier.stretch_and_share[2 * b + 1]);
+        }
   }
 
   template <int dim>
@@ -253,7 +240,7 @@ namespace perideal
           continue;
         this->lost.push_back({slot, ends.near, ends.far});
         remove(slot);
-        lose(slot, ends.near, volumes.broken);
+        volumes.add(volumes.broken, ends.near, ends.far);
       }
   }
 
@@ -265,22 +252,8 @@ namespace perideal
       for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
         for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
           if (const double left = softening.share(slot); left < 1 && carries_force(slot))
-            {
-              const LocalIndex j = bonds.neighbour[slot];
-              volume[i] += (1. - left) * counted_volume(*families, i, j);
-              if (j < families->n_owned())
-                volume[j] += (1. - left) * counted_volume(*families, j, i);
-            }
-    return share_of_family(volume);
-  }
-
-  template <int dim>
-  std::vector<double> BreakingBonds<dim>::share_of_family(const std::vector<double> &volume) const
-  {
-    std::vector<double> result(volume.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = volumes.family[i] > 0 ? volume[i] / volumes.family[i] : 0.;
-    return result;
+            volumes.add(volume, i, bonds.neighbour[slot], 1. - left);
+    return volumes.share(volume);
   }
 
   template <int dim>
@@ -289,7 +262,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(rest_length) +
            memory_consumption(critical_stretch) + regions.memory_consumption() +
-           softening.memory_consumption() + 3 * memory_consumption(volumes.family) +
+           softening.memory_consumption() + volumes.memory_consumption() +
            this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
            ghosted.memory_consumption();
   }

@@ -91,9 +91,10 @@ namespace perideal
     evaluate();
     double result = has_small_strain ? bonds->energy_small() : bonds->energy_finite();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      points->visit(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
-        result += points->weight(i) * law_of_node[i]->energy(gradient);
-      });
+      if (const double of_point = points->weight(i); of_point > 0)
+        points->visit(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
+          result += of_point * law_of_node[i]->energy(gradient);
+        });
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }
 

@@ -130,7 +130,7 @@ namespace perideal
   }
 
   template <int dim>
-  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const
+  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j) const
   {
     const GlobalIndex first   = families->global_number(0);
     const LocalIndex  n_owned = families->n_owned();
@@ -145,7 +145,7 @@ namespace perideal
           return false;
         local_j = n_owned + (at - ghosts.begin());
       }
-    return bonds.find(i, local_j) != BondList::no_slot;
+    return families->are_members(i, local_j);
   }
 
   template <int dim>
@@ -183,7 +183,7 @@ namespace perideal
   }
 
   template <int dim>
-  void ContactForce<dim>::search(const BondList &bonds)
+  void ContactForce<dim>::search()
   {
     const NodeCloud<dim> cloud = candidates();
     const GlobalIndex    n_all =
@@ -208,7 +208,7 @@ namespace perideal
     };
     for (LocalIndex a = 0; a < sought.node.size(); ++a)
       for (const LocalIndex *b = std::upper_bound(found.begin(a), found.end(a), a); b != found.end(a); ++b)
-        if (!are_family(sought.node[a], static_cast<GlobalIndex>(number.local_element(*b)), bonds))
+        if (!are_family(sought.node[a], static_cast<GlobalIndex>(number.local_element(*b))))
           {
             const auto of_a = constants(a), of_b = constants(*b);
             lists.strangers.push_back({a,
@@ -262,7 +262,7 @@ namespace perideal
       {
         list_lost_bonds(bonds);
         if (may_meet_strangers())
-          search(bonds.bond_list());
+          search();
         else
           {
             lists.strangers.clear();

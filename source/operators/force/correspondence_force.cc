@@ -49,7 +49,7 @@ namespace perideal
   void CorrespondenceForce<dim>::clear_weights(const BondIndex slot)
   {
     is_gone[slot] = true;
-    changed.push_back(this->near_end(slot));
+    changed.push_back(this->bonds.near_end(slot));
     if (bonds.neighbour[slot] < families->n_owned())
       changed.push_back(bonds.neighbour[slot]);
   }

@@ -162,7 +162,7 @@ namespace perideal
           after.sum[a] = sums[a][i];
         for (const BondCursor::End &end : slots_of(i))
           {
-            const LocalIndex near = this->near_end(end.slot);
+            const LocalIndex near = bonds.near_end(end.slot);
             const Motion     m    = motion(end.slot, near, bonds.neighbour[end.slot], velocity_of);
             for (unsigned int a = 0; a < n_sums; ++a)
               {

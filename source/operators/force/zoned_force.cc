@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/operators/force/intact_gradients.h>
 #include <perideal/operators/force/zoned_force.h>
 #include <perideal/output/lasting_state.h>
@@ -7,6 +8,7 @@
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,38 +16,130 @@
 
 namespace perideal
 {
+  namespace
+  {
+    void add(std::vector<bool> &chosen, const std::vector<bool> &more)
+    {
+      for (std::size_t i = 0; i < chosen.size(); ++i)
+        chosen[i] = chosen[i] || more[i];
+    }
+
+    std::vector<bool> opposite(std::vector<bool> nodes)
+    {
+      nodes.flip();
+      return nodes;
+    }
+
+    /// Chooses needed nodes and, as all families are made again, half as many more at least than there were:
+    /// however a zone grows, that takes some times what making the last ones takes. Collective.
+    template <int dim>
+    void choose(const Families<dim> &families, const std::vector<bool> &needed, std::vector<bool> &chosen)
+    {
+      using dealii::Utilities::MPI::sum;
+      const auto count = [&] {
+        const GlobalIndex own = std::count(chosen.begin(), chosen.begin() + families.n_owned(), true);
+        return sum(own, families.communicator);
+      };
+      const GlobalIndex enough = 3 * count() / 2;
+      add(chosen, needed);
+      // Further ones may not be there, or be parts that nothing joins to the zone.
+      GlobalIndex now = count(), before = 0;
+      do
+        {
+          before = now;
+          add(chosen, families.with_members(chosen));
+          now = count();
+        }
+      while (now < enough && now > before);
+    }
+
+    /// Owned nodes outside of the core of a zone with a share of the strains that are their limits.
+    template <int dim>
+    std::vector<LocalIndex> nodes_near_breaking(const ConsistentForce<dim> &cells,
+                                                const FractureZone<dim>    &zone,
+                                                const std::vector<double>  &limit,
+                                                const double                share)
+    {
+      std::vector<LocalIndex> result;
+      for (LocalIndex i = 0; i < limit.size(); ++i)
+        {
+          if (zone.is_core(i))
+            continue;
+          const double most = 1. + share * limit[i], most_strain = 0.5 * (most * most - 1.);
+          const auto   strain = cells.strain(i);
+          // No eigenvalue is larger than the norm.
+          if (strain.norm() > most_strain && eigenvalues(strain)[0] > most_strain)
+            result.push_back(i);
+        }
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   ZonedForce<dim>::ZonedForce(std::unique_ptr<ConsistentForce<dim>>                     given,
-                              const std::shared_ptr<const BondWeights<dim>>            &weights,
-                              const std::vector<std::pair<dealii::Point<dim>, double>> &held)
-    : WrappedBonds<dim>(create_bond_force<dim>(*weights), *weights->families)
+                              const std::shared_ptr<const Families<dim>>               &families,
+                              const Weigh                                              &weigh,
+                              const std::vector<std::pair<dealii::Point<dim>, double>> &held,
+                              const bool                                                all_at_once)
+    : WrappedBonds<dim>(nullptr, *families)
     , cells(std::move(given))
-    , whole(weights)
-    , zone(weights->families, held)
-    , limit(weights->families->n_owned(), std::numeric_limits<double>::infinity())
+    , families(families)
+    , zone(families, held)
+    , making{weigh, {}, {}, std::vector<bool>(families->n_local(), all_at_once), {}, 0, 0.}
+    , limit(families->n_owned(), std::numeric_limits<double>::infinity())
   {
     this->initialize(of_cells);
     this->initialize(change.force);
+    make_bonds();
   }
 
   template <int dim>
-  void ZonedForce<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                                             const SofteningLaw                             &law,
-                                             const typename BondForce<dim>::CriticalStretch &first)
+  void ZonedForce<dim>::set_limits(const Limits &limits)
   {
-    bonds->set_critical_stretch(stretch, law, first);
-    const BondList &list = bonds->bond_list();
-    for (LocalIndex i = 0; i < list.n_rows(); ++i)
-      for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
-        if (const LocalIndex j = list.neighbour[slot]; j != i)
-          {
-            const double begins = std::min(
-              stretch(i, j), law.softens() && first ? first(i, j) : std::numeric_limits<double>::infinity());
-            limit[i] = std::min(limit[i], begins);
-            if (j < limit.size())
-              limit[j] = std::min(limit[j], begins);
-          }
+    making.set_limits = limits.set;
+    limits.set(*whole->families, *bonds);
+    for (LocalIndex i = 0; i < limit.size(); ++i)
+      limit[i] = limits.first_strain(i);
     scale();
+  }
+
+  template <int dim>
+  GlobalIndex ZonedForce<dim>::cut(const BondPredicate<dim> &is_cut)
+  {
+    making.is_cut = is_cut;
+    // Of bonds that a crack cuts, the short ones are known; long ones are near them.
+    const BondList   &listed = cells->bond_list();
+    std::vector<bool> near(families->n_local(), false);
+    for (LocalIndex i = 0; i < listed.n_rows(); ++i)
+      for (BondIndex slot = listed.row[i]; slot < listed.row[i + 1]; ++slot)
+        if (const LocalIndex j = listed.neighbour[slot];
+            j != i && !near[i] && is_cut(families->position[i], families->position[j]))
+          near[i] = near[j] = true;
+    add(making.chosen, families->with_members(families->with_members(near)));
+    make_bonds();
+    return making.n_cut;
+  }
+
+  template <int dim>
+  void ZonedForce<dim>::make_bonds()
+  {
+    const dealii::Timer clock(MPI_COMM_SELF);
+    whole     = making.weigh(families->whole_families(making.chosen));
+    auto made = create_bond_force<dim>(*whole);
+    if (making.is_cut)
+      making.n_cut = made->cut(making.is_cut);
+    if (making.set_limits)
+      making.set_limits(*whole->families, *made);
+    if (bonds)
+      {
+        auto &earlier = dynamic_cast<BreakingBonds<dim> &>(*bonds);
+        earlier.take_back();
+        dynamic_cast<BreakingBonds<dim> &>(*made).restore(earlier.memory());
+      }
+    made->judge_bonds(judges);
+    bonds            = std::move(made);
+    making.is_inside = opposite(families->with_members(opposite(making.chosen)));
+    making.seconds += clock.wall_time();
   }
 
   template <int dim>
@@ -67,23 +161,6 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<LocalIndex> ZonedForce<dim>::nodes_near_breaking(const double share) const
-  {
-    std::vector<LocalIndex> result;
-    for (LocalIndex i = 0; i < limit.size(); ++i)
-      {
-        if (zone.is_core(i))
-          continue;
-        const double most = 1. + share * limit[i], most_strain = 0.5 * (most * most - 1.);
-        const auto   strain = cells->strain(i);
-        // No eigenvalue is larger than the norm.
-        if (strain.norm() > most_strain && eigenvalues(strain)[0] > most_strain)
-          result.push_back(i);
-      }
-    return result;
-  }
-
-  template <int dim>
   bool ZonedForce<dim>::grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement)
   {
     NodalVector of_bonds(of_cells);
@@ -100,6 +177,18 @@ namespace perideal
     change.is_there = zone.grow(nodes);
     if (!change.is_there)
       return false;
+    std::vector<bool> counts(families->n_local());
+    unsigned int      lacks = 0;
+    for (LocalIndex i = 0; i < counts.size(); ++i)
+      {
+        counts[i] = zone.share()[i] > 0;
+        lacks     = counts[i] && !making.is_inside[i] ? 1 : lacks;
+      }
+    if (dealii::Utilities::MPI::max(lacks, families->communicator) > 0)
+      {
+        choose(*families, families->with_members(counts), making.chosen);
+        make_bonds();
+      }
     scale();
     cells->compute(of_cells, displacement);
     look(1.);
@@ -109,9 +198,10 @@ namespace perideal
   template <int dim>
   bool ZonedForce<dim>::extend_bonds(const NodalVector &displacement)
   {
-    const unsigned int comes_near = nodes_near_breaking(near_to_breaking).empty() ? 0 : 1;
+    const auto near = [&](const double share) { return nodes_near_breaking(*cells, zone, limit, share); };
+    const unsigned int comes_near = near(near_to_breaking).empty() ? 0 : 1;
     return dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0 &&
-           grow(nodes_near_breaking(alike * near_to_breaking), displacement);
+           grow(near(alike * near_to_breaking), displacement);
   }
 
   template <int dim>
@@ -133,12 +223,11 @@ namespace perideal
     for (LocalIndex i = 0; i < result.size(); ++i)
       if (zone.share()[i] > 0)
         nodes.push_back(i);
-    const Families<dim> &families = *whole->families;
-    NodalVector          displacement(families.make_partitioner(dim));
-    for (LocalIndex i = 0; i < families.n_local(); ++i)
+    NodalVector displacement(families->make_partitioner(dim));
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
-        displacement.local_element(dim * i + d) = bonds->positions()[i].value[d] - families.position[i][d];
-    const auto in_zone = intact_gradients(families, *bonds, displacement, nodes);
+        displacement.local_element(dim * i + d) = bonds->positions()[i].value[d] - families->position[i][d];
+    const auto in_zone = intact_gradients(*families, *bonds, displacement, nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k)
       result[nodes[k]] = in_zone[k];
     return result;
@@ -160,6 +249,21 @@ namespace perideal
   void ZonedForce<dim>::register_state(LastingState &state)
   {
     state.add_node_array(
+      "whole families",
+      "-",
+      1,
+      [this] {
+        return std::vector<double>(making.chosen.begin(), making.chosen.begin() + families->n_owned());
+      },
+      [this](const std::vector<double> &values) {
+        NodalVector chosen(families->make_partitioner(1));
+        std::copy_n(values.begin(), families->n_owned(), chosen.begin());
+        chosen.update_ghost_values();
+        for (LocalIndex i = 0; i < families->n_local(); ++i)
+          making.chosen[i] = chosen.local_element(i) > 0;
+        make_bonds();
+      });
+    state.add_node_array(
       "share of bonds",
       "-",
       2,
@@ -168,14 +272,35 @@ namespace perideal
         zone.restore(values);
         scale();
       });
-    bonds->register_state(state);
+    BreakingBonds<dim>::register_bonds(
+      state, [this]() -> BreakingBonds<dim> & { return dynamic_cast<BreakingBonds<dim> &>(*bonds); });
+  }
+
+  template <int dim>
+  typename ZonedForce<dim>::WholeFamilies ZonedForce<dim>::whole_families() const
+  {
+    using dealii::Utilities::MPI::sum;
+    const MPI_Comm communicator = families->communicator;
+    WholeFamilies  result;
+    const auto     first = making.chosen.begin();
+    result.nodes =
+      sum(static_cast<GlobalIndex>(std::count(first, first + families->n_owned(), true)), communicator);
+    result.bytes   = sum(bytes_of_bonds(), communicator);
+    result.seconds = dealii::Utilities::MPI::max(making.seconds, communicator);
+    return result;
+  }
+
+  template <int dim>
+  std::size_t ZonedForce<dim>::bytes_of_bonds() const
+  {
+    return bonds->memory_consumption() + whole->memory_consumption() + whole->families->memory_consumption() +
+           (scaled ? scaled->memory_consumption() : 0);
   }
 
   template <int dim>
   std::size_t ZonedForce<dim>::memory_consumption() const
   {
-    return cells->memory_consumption() + bonds->memory_consumption() + whole->memory_consumption() +
-           (scaled ? scaled->memory_consumption() : 0) + zone.memory_consumption() +
+    return cells->memory_consumption() + bytes_of_bonds() + zone.memory_consumption() +
            dealii::MemoryConsumption::memory_consumption(limit) + 2 * of_cells.memory_consumption();
   }
 

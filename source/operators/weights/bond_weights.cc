@@ -27,6 +27,10 @@ namespace perideal
     unsigned int                 n_empty  = 0;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
+        // The cursor goes from family to family.
+        cursor.find(i, families->begin(i), families->end(i), ends);
+        if (!families->is_whole(i))
+          continue;
         view.reinit(
           *families,
           i,
@@ -39,7 +43,6 @@ namespace perideal
             material = families->material[i];
             view.set_solid(solid_of(material));
           }
-        cursor.find(i, families->begin(i), families->end(i), ends);
         visit(view, ends);
       }
     n_empty = dealii::Utilities::MPI::sum(n_empty, families->communicator);

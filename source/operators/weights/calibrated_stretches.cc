@@ -83,7 +83,7 @@ namespace perideal
         // The cursor goes from family to family.
         cursor.find(i, families.begin(i), families.end(i), ends);
         const BondFracture<dim> fracture = how.fracture_of(families.material[i]);
-        if (!(fracture.energy > 0))
+        if (!families.is_whole(i) || !(fracture.energy > 0))
           continue;
         family.reinit(families, i);
         if (families.material[i] != material)

@@ -63,9 +63,12 @@ namespace perideal
     for (const auto id : families->material)
       if (modulus_of.count(id) == 0)
         modulus_of[id] = Consistent<dim>::stabilising_modulus(solid_of(id));
-    const auto distance_square = [&](const LocalIndex m, const dealii::Tensor<1, dim> &bond) {
-      return families->shape.empty() ? bond.norm_square() / (families->horizon[m] * families->horizon[m]) :
-                                       (families->shape[m] * bond).norm_square();
+    // Their horizon is what the families list, however far those of breaking bonds reach.
+    const double listed_square   = families->listed() * families->listed();
+    const auto   distance_square = [&](const LocalIndex m, const dealii::Tensor<1, dim> &bond) {
+      return (families->shape.empty() ? bond.norm_square() / (families->horizon[m] * families->horizon[m]) :
+                                          (families->shape[m] * bond).norm_square()) /
+             listed_square;
     };
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)

@@ -159,10 +159,14 @@ namespace perideal
     EqualFamilies           sample(families);
     FamilyView<dim>         view;
     std::vector<LocalIndex> codes;
-    const LocalIndex        n = std::min(n_samples, families.n_owned());
+    std::vector<LocalIndex> whole;
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      if (families.is_whole(i))
+        whole.push_back(i);
+    const LocalIndex n = std::min(n_samples, static_cast<LocalIndex>(whole.size()));
     for (LocalIndex k = 0; k < n; ++k)
       {
-        const LocalIndex i = static_cast<GlobalIndex>(k) * families.n_owned() / n;
+        const LocalIndex i = whole[static_cast<GlobalIndex>(k) * whole.size() / n];
         view.reinit(families, i);
         sample.find(view, families.material[i], codes);
       }

@@ -66,6 +66,45 @@ namespace
     EXPECT_EQ(2 * families.n_bonds(), dealii::Utilities::MPI::sum(n_directed, nodes.communicator));
   }
 
+  /// Families that list a share have the members within it and the ghosts of whole ones; the whole families
+  /// of some nodes have every bond of these, and no other.
+  template <int dim>
+  void expect_families_of_some(const Mesh<dim> &mesh, const std::string &shape, const std::string &scheme)
+  {
+    const test::Body<dim> body(mesh, 2.51, shape, scheme);
+    const Families<dim>  &all = *body.families, listed(body.nodes, all.volume_rule, 0.6);
+    ASSERT_EQ(listed.ghost_number, all.ghost_number);
+    EXPECT_LT(listed.n_bonds(), all.n_bonds());
+    EXPECT_TRUE(all.is_whole(0));
+    EXPECT_FALSE(listed.is_whole(0));
+    std::vector<bool> chosen(all.n_local());
+    for (LocalIndex i = 0; i < all.n_local(); ++i)
+      chosen[i] = test::scatter(all.position[i], 3) > 0.5;
+    const auto some = listed.whole_families(chosen);
+    const auto near = listed.with_members(chosen);
+    for (LocalIndex i = 0; i < all.n_owned(); ++i)
+      {
+        std::vector<LocalIndex> expected;
+        for (const LocalIndex *j = all.begin(i); j != all.end(i); ++j)
+          if (chosen[i] || chosen[*j])
+            expected.push_back(*j);
+        EXPECT_EQ(std::vector<LocalIndex>(some->begin(i), some->end(i)), expected);
+        EXPECT_EQ(some->is_whole(i), chosen[i]);
+        EXPECT_EQ(near[i], chosen[i] || !expected.empty());
+        for (const LocalIndex *j = listed.begin(i); j != listed.end(i); ++j)
+          EXPECT_TRUE(std::binary_search(all.begin(i), all.end(i), *j));
+        for (LocalIndex j = 0; j < all.n_local(); ++j)
+          EXPECT_EQ(all.are_members(i, j) && i != j, std::binary_search(all.begin(i), all.end(i), j));
+      }
+    // All ranks have said the same of their ghosts.
+    NodalVector marks(all.make_partitioner(1));
+    for (LocalIndex i = 0; i < all.n_owned(); ++i)
+      marks.local_element(i) = near[i] ? 1. : 0.;
+    marks.update_ghost_values();
+    for (LocalIndex i = 0; i < all.n_local(); ++i)
+      EXPECT_EQ(near[i], marks.local_element(i) > 0);
+  }
+
   /// A box whose cells grow along x, so that horizons differ by @p ratio.
   template <int dim>
   NodeCloud<dim>
@@ -112,6 +151,15 @@ TEST(Families, RegularLatticeHasTheKnownSize)
   const auto          block = test::make_box<3>({8, 8, 8}, {1., 1., 1.}, 0.);
   const test::Body<3> solid(*block);
   EXPECT_EQ(solid.families->statistics().max, 122u);
+}
+
+TEST(Families, AreWholeOfChosenNodes)
+{
+  const auto square = test::make_box<2>({14, 9}, {14., 9.}, 0.3);
+  expect_families_of_some<2>(*square, "sphere", "one point");
+  expect_families_of_some<2>(*square, "cell", "one point");
+  expect_families_of_some<2>(*square, "sphere", "partial volume");
+  expect_families_of_some<3>(*test::make_box<3>({6, 5, 4}, {6., 5., 4.}, 0.2), "sphere", "one point");
 }
 
 TEST(BondList, HoldsEveryBondOnceAndItsCursorFindsIt)

@@ -18,7 +18,9 @@ namespace
   template <int dim>
   struct ZonedBox
   {
-    explicit ZonedBox(const double begins, MPI_Comm communicator = MPI_COMM_WORLD)
+    explicit ZonedBox(const double begins,
+                      MPI_Comm     communicator = MPI_COMM_WORLD,
+                      const bool   all_at_once  = false)
       : mesh(make_mesh(communicator))
       , body(*mesh, 3.01)
       , solid(ElasticConstants{1., 0.3, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid})
@@ -32,16 +34,25 @@ namespace
       const auto bonds    = std::make_shared<ConsistentBonds<dim>>(
         body.families, moments->cell_polynomials(), create_consistent<dim>(parameters, 3.01), solid_of);
       cells = std::make_shared<ConsistentOperator<dim>>(body.families, moments, bonds, solid_of);
-      const auto          model = create_model<dim>(parameters.in_zone(), 1.);
       LawsByMaterial<dim> laws;
       laws[0] = create_law<dim>(LawChoice("Saint Venant-Kirchhoff"), solid);
       force   = std::make_unique<ZonedForce<dim>>(
         std::make_unique<ConsistentForce<dim>>(body.families, moments, bonds, laws),
-        weigh_bonds<dim>(body.families, *model, solid_of, {{}, true, false}),
-        std::vector<std::pair<dealii::Point<dim>, double>>());
-      force->set_critical_stretch([begins](const auto, const auto) { return 3. * begins; },
-                                  SofteningLaw("linear"),
-                                  [begins](const auto, const auto) { return begins; });
+        body.families,
+        [this,
+         solid_of,
+         model = std::shared_ptr<LinearModel<dim>>(create_model<dim>(parameters.in_zone(), 1.))](
+          const auto &families) {
+          return weigh_bonds<dim>(families, *model, solid_of, {{}, true, false});
+        },
+        std::vector<std::pair<dealii::Point<dim>, double>>(),
+        all_at_once);
+      force->set_limits({[begins](const Families<dim> &, BondForce<dim> &made) {
+                           made.set_critical_stretch([begins](const auto, const auto) { return 3. * begins; },
+                                                     SofteningLaw("linear"),
+                                                     [begins](const auto, const auto) { return begins; });
+                         },
+                         [begins](const LocalIndex) { return begins; }});
       tangent = std::make_unique<ZonedTangent<dim>>(cells);
       force->initialize(value);
     }
@@ -61,7 +72,7 @@ namespace
       return result;
     }
 
-    static constexpr double length = 24., width = dim == 2 ? 8. : 4.;
+    static constexpr double length = 64., width = dim == 2 ? 8. : 4.;
 
     static std::unique_ptr<Mesh<dim>> make_mesh(MPI_Comm communicator)
     {
@@ -169,8 +180,47 @@ namespace
                 shared.value.local_element(dim * i + d), alone.value.local_element(dim * j + d), 1e-6 * size);
           }
   }
+
+  /// While bonds soften and break, families that are made on demand do what all families do.
+  template <int dim>
+  void expect_families_on_demand_to_do()
+  {
+    ZonedBox<dim>     demand(0.01), all(0.01, MPI_COMM_WORLD, true);
+    const GlobalIndex n_nodes = demand.mesh->triangulation.n_global_active_cells();
+    EXPECT_EQ(demand.force->whole_families().nodes, 0u);
+    EXPECT_EQ(all.force->whole_families().nodes, n_nodes);
+    GlobalIndex n_broken = 0;
+    for (const double strain : {0.002, 0.003, 0.01, 0.03, 0.08, 0.02})
+      {
+        for (ZonedBox<dim> *box : {&demand, &all})
+          box->force->compute(box->value, box->pulled(strain, 1e-4));
+        const double size = all.value.linfty_norm(), energy = all.force->strain_energy();
+        for (LocalIndex i = 0; i < dim * all.body.nodes.size(); ++i)
+          EXPECT_NEAR(demand.value.local_element(i), all.value.local_element(i), 1e-6 * size);
+        EXPECT_NEAR(demand.force->strain_energy(), energy, 1e-6 * energy);
+        EXPECT_NEAR(demand.force->switched_energy(all.value, 0.),
+                    all.force->switched_energy(all.value, 0.),
+                    1e-6 * energy);
+        EXPECT_EQ(demand.force->n_broken_now(), all.force->n_broken_now());
+        n_broken += all.force->n_broken_now();
+        const auto damage = demand.force->damage(), of_all = all.force->damage();
+        for (LocalIndex i = 0; i < damage.size(); ++i)
+          EXPECT_NEAR(damage[i], of_all[i], 1e-12);
+      }
+    EXPECT_GT(n_broken, 0u);
+    EXPECT_LT(demand.force->whole_families().nodes, n_nodes);
+    EXPECT_GT(demand.force->whole_families().nodes, demand.force->fracture_zone().n_nodes());
+  }
 } // namespace
 
+TEST(ZonedForce, FamiliesOnDemandDoWhatAllDo2D)
+{
+  expect_families_on_demand_to_do<2>();
+}
+TEST(ZonedForce, FamiliesOnDemandDoWhatAllDo3D)
+{
+  expect_families_on_demand_to_do<3>();
+}
 TEST(ZonedForce, SameOnAnyNumberOfRanks2D)
 {
   expect_same_zone_on_ranks<2>();

@@ -86,6 +86,10 @@ namespace perideal
     /// All bonds of this rank, broken ones included.
     virtual const BondList &bond_list() const = 0;
 
+    /// Bonds of all nodes that hold the body together: these, or of forces with bonds where they may break
+    /// only, the shortest ones.
+    virtual const BondList &body_bonds() const { return bond_list(); }
+
     /// Bonds of all ranks that broke in the last compute(). Collective.
     virtual GlobalIndex n_broken_now() const = 0;
 

@@ -4,10 +4,12 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/lost_volumes.h>
 #include <perideal/operators/force/rest_regions.h>
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,18 +23,39 @@ namespace perideal
   class BreakingBonds : public BondForce<dim>
   {
   public:
-    void                set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                                             const SofteningLaw                             &law = SofteningLaw(),
-                                             const typename BondForce<dim>::CriticalStretch &first = {}) override;
-    void                judge_bonds(const bool judge) override;
-    GlobalIndex         cut(const BondPredicate<dim> &is_cut) override;
-    GlobalIndex         n_broken_now() const override;
-    void                register_state(LastingState &state) override;
+    void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
+                                     const SofteningLaw                             &law   = SofteningLaw(),
+                                     const typename BondForce<dim>::CriticalStretch &first = {}) override;
+    void        judge_bonds(const bool judge) override;
+    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
+    GlobalIndex n_broken_now() const override;
+    void        register_state(LastingState &state) override
+    {
+      register_bonds(state, [this]() -> BreakingBonds & { return *this; });
+    }
     const BondList     &bond_list() const override { return bonds; }
     const NodeRecord   *positions() const override { return position.data(); }
     std::vector<double> damage() const override;
-    std::vector<double> cut_share() const override { return share_of_family(volumes.cut); }
+    std::vector<double> cut_share() const override { return volumes.share(volumes.cut); }
     double              share_computed() const override { return regions.share_awake(); }
+
+    /// What lasts of bonds: those of this rank that broke, in this order (those that the partition cuts are
+    /// on both ranks), and those that softened, with the stretch beyond which each goes on to do so and the
+    /// share left.
+    struct Memory
+    {
+      std::vector<BondEnds> broken, softened;
+      std::vector<double>   stretch_and_share;
+    };
+    Memory memory() const;
+    /// Breaks and softens bonds as they did before. Those that are no bonds here are left out.
+    void restore(const Memory &earlier);
+
+    /// Registers the memory of the bonds that are there when it is asked for.
+    static void register_bonds(LastingState &state, const std::function<BreakingBonds &()> &bonds);
+
+    /// Takes back what softened without being judged.
+    void take_back() { softening.begin(critical_stretch); }
 
   protected:
     /// @param has_sums whether forces need sums over families first
@@ -63,9 +86,6 @@ namespace perideal
     /// Breaks a bond, the weights of which the caller has looked at.
     void break_bond(const BondIndex slot, const LocalIndex near);
 
-    /// The row that holds the slot.
-    LocalIndex near_end(const BondIndex slot) const;
-
     std::size_t breaking_memory() const;
 
     using BondForce<dim>::softening;
@@ -80,23 +100,12 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
-    /// The bonds of this rank that broke so far, in this order; those that the partition cuts are on both
-    /// ranks.
-    std::vector<BondEnds> broken_bonds() const;
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
-    /// Adds the volumes behind a bond to those of its owned ends.
-    void                lose(const BondIndex slot, const LocalIndex i, std::vector<double> &volume) const;
-    void                measure_rest_lengths();
-    std::vector<double> share_of_family(const std::vector<double> &volume) const;
+    void measure_rest_lengths();
 
-    bool judges_bonds = true;
-    /// Of the families of owned nodes [m^3]: whole, behind bonds that broke, and behind bonds that were cut.
-    struct Volumes
-    {
-      std::vector<double> family, broken, cut;
-    };
-    Volumes volumes;
+    bool             judges_bonds = true;
+    LostVolumes<dim> volumes;
     /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
     std::size_t n_cut = 0, n_lost_before = 0;
     NodalVector ghosted;

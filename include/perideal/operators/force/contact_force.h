@@ -87,8 +87,8 @@ namespace perideal
     double search_radius() const { return parameters.distance + 1.; }
     /// What may touch, at present positions; sets the nodes sought.
     NodeCloud<dim> candidates();
-    void           search(const BondList &bonds);
-    bool           are_family(const LocalIndex i, const GlobalIndex j, const BondList &bonds) const;
+    void           search();
+    bool           are_family(const LocalIndex i, const GlobalIndex j) const;
     /// @param node local number of the pair's ends among the families; beyond the owned ones: not owned
     void repel(const Pair      &pair,
                const double    *y_i,

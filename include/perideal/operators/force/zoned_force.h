@@ -2,10 +2,12 @@
 #ifndef perideal_operators_force_zoned_force_h
 #define perideal_operators_force_zoned_force_h
 
+#include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/operators/force/consistent_force.h>
 #include <perideal/operators/force/fracture_zone.h>
 #include <perideal/operators/force/wrapped_bonds.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -24,6 +26,10 @@ namespace perideal
    * while its equilibrium is sought may not have one. Both forms store the same in uniform strain, so that
    * growth changes the energy in second order of the cells' size, most at the tips of cracks; what it does
    * change is booked.
+   *
+   * Whole families are made on demand: of nodes with a chi, of their members, with which they share the bonds
+   * whose stretches they decide on, and of some more, so that they need not be made at each growth; and where
+   * bonds are cut. All others list only the bonds that stabilise cells.
    */
   template <int dim>
   class ZonedForce : public WrappedBonds<dim>, public ContinuumForce<dim>
@@ -35,15 +41,37 @@ namespace perideal
     /// not choose one.
     static constexpr double alike = 0.98;
 
-    /// @param weights of the bonds, which will change
-    /// @param held where prescribed values at faces of this rank act on cells, and their spacing. Collective.
-    ZonedForce(std::unique_ptr<ConsistentForce<dim>>                     cells,
-               const std::shared_ptr<const BondWeights<dim>>            &weights,
-               const std::vector<std::pair<dealii::Point<dim>, double>> &held);
+    /// Returns the weights of the whole families of some nodes, which will change.
+    using Weigh =
+      std::function<std::shared_ptr<const BondWeights<dim>>(const std::shared_ptr<const Families<dim>> &)>;
 
-    void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                              const SofteningLaw                             &law   = SofteningLaw(),
-                              const typename BondForce<dim>::CriticalStretch &first = {}) override;
+    /// @param families of all nodes
+    /// @param held where prescribed values at faces of this rank act on cells, and their spacing
+    /// @param all_at_once whether whole families are those of all nodes from the beginning. Collective.
+    ZonedForce(std::unique_ptr<ConsistentForce<dim>>                     cells,
+               const std::shared_ptr<const Families<dim>>               &families,
+               const Weigh                                              &weigh,
+               const std::vector<std::pair<dealii::Point<dim>, double>> &held,
+               const bool                                                all_at_once = false);
+
+    /// When bonds fail.
+    struct Limits
+    {
+      /// Sets the limits of bonds of whole families.
+      std::function<void(const Families<dim> &, BondForce<dim> &)> set;
+      /// Strain of a local node at which bonds like its own begin to fail [-]; infinity: never.
+      std::function<double(const LocalIndex)> first_strain;
+    };
+    /// Makes bonds breakable from now on. Collective.
+    void set_limits(const Limits &limits);
+    /// Not for this force: limits are set again where families are made.
+    void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &,
+                              const SofteningLaw &,
+                              const typename BondForce<dim>::CriticalStretch &) override
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+    }
+    GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
 
     void judge_bonds(const bool judge) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
@@ -67,21 +95,48 @@ namespace perideal
     const std::shared_ptr<const BondWeights<dim>> &scaled_weights() const { return scaled; }
     const FractureZone<dim>                       &fracture_zone() const { return zone; }
 
+    const BondList &body_bonds() const override { return cells->bond_list(); }
+
+    /// The nodes of all ranks whose whole families have been made, bytes that these and their bonds take on
+    /// all ranks, and seconds that it took to make them, again where there were more [s].
+    struct WholeFamilies
+    {
+      GlobalIndex nodes   = 0;
+      std::size_t bytes   = 0;
+      double      seconds = 0;
+    };
+    /// Collective.
+    WholeFamilies whole_families() const;
+
   private:
     using WrappedBonds<dim>::bonds;
 
-    /// Owned nodes outside of the core of the zone with a share of the strain at which bonds begin to fail.
-    std::vector<LocalIndex> nodes_near_breaking(const double share) const;
     /// Lets the zone grow around nodes and keeps what that changes at this displacement; returns whether it
     /// did. Collective.
     bool grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
+    /// Makes the bonds of the chosen families, with what is cut, broken and softened. Collective.
+    void make_bonds();
     /// Gives cells and bonds their shares. Collective.
-    void scale();
+    void        scale();
+    std::size_t bytes_of_bonds() const;
 
     std::unique_ptr<ConsistentForce<dim>>   cells;
+    std::shared_ptr<const Families<dim>>    families;
     std::shared_ptr<const BondWeights<dim>> whole, scaled;
     FractureZone<dim>                       zone;
-    /// Smallest strain at which a bond of an owned node begins to fail [-].
+
+    /// What makes bonds, and by local node whose whole families there are, and whose members have them too.
+    struct Making
+    {
+      Weigh                                                        weigh;
+      BondPredicate<dim>                                           is_cut;
+      std::function<void(const Families<dim> &, BondForce<dim> &)> set_limits;
+      std::vector<bool>                                            chosen, is_inside;
+      GlobalIndex                                                  n_cut   = 0;
+      double                                                       seconds = 0;
+    };
+    Making making;
+    /// Strain at which bonds of an owned node begin to fail [-].
     std::vector<double> limit;
     bool                judges = true;
 

@@ -35,8 +35,8 @@ namespace perideal
   };
 
   /**
-   * Holds the weights that a model gives to every family and bond, whatever its family shape. The linear
-   * operator and the nonlinear force of a scene share them.
+   * Holds the weights that a model gives to every family and bond, whatever its family shape; none to
+   * families that do not list all members. The linear operator and the nonlinear force of a scene share them.
    */
   template <int dim>
   class BondWeights
@@ -79,7 +79,7 @@ namespace perideal
     using VisitFamily =
       std::function<void(const FamilyView<dim> &family, const std::vector<BondCursor::End> &ends)>;
 
-    /// Visits every family of this rank without the bonds that are cut.
+    /// Visits every whole family of this rank without the bonds that are cut.
     /// @throws InputError on all ranks where whole families count nothing of their members. Collective.
     void
     visit_families(const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut, const VisitFamily &visit);

@@ -50,7 +50,7 @@ namespace perideal
     EnergyByDirection shares;
   };
 
-  /// Calibrates the bonds of all families of materials that break, as if no bond was cut. Collective.
+  /// Calibrates the bonds of all whole families of materials that break, as if no bond was cut. Collective.
   template <int dim>
   CalibratedStretches calibrate_stretches(const Families<dim>    &families,
                                           const BondList         &bonds,

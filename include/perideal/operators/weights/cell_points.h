@@ -106,11 +106,13 @@ namespace perideal
     {
       dealii::Tensor<2, dim>                  sum;
       std::array<dealii::Tensor<2, dim>, dim> difference;
-      visit(moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-        const dealii::Tensor<2, dim> stress = weight(i) * stress_of(p, gradient);
-        sum += stress;
-        difference[p / 2] += p % 2 == 0 ? stress : -stress;
-      });
+      // Of a cell that does not count nobody asks its law.
+      if (const double of_point = weight(i); of_point > 0)
+        visit(moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
+          const dealii::Tensor<2, dim> stress = of_point * stress_of(p, gradient);
+          sum += stress;
+          difference[p / 2] += p % 2 == 0 ? stress : -stress;
+        });
       const auto q = offsets(i);
       write(sum, moments.gradient(i));
       for (unsigned int m = 0; m < dim; ++m)

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_bond_limits_h
+#define perideal_problem_bond_limits_h
+
+#include <perideal/operators/weights/calibrated_stretches.h>
+#include <perideal/problem/discrete_body.h>
+
+#include <utility>
+
+namespace perideal
+{
+  /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
+  /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
+  template <int dim>
+  double critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
+
+  /// Returns the strain at which bonds of a material and a horizon begin to fail [-], whether they are
+  /// calibrated or not: by the strength, a stretch that is given or the published formula; infinity: never.
+  template <int dim>
+  double first_strain(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
+
+  /// Knows the critical stretches of bonds, given by their ends and slot.
+  template <int dim>
+  class BondLimits
+  {
+  public:
+    /// Collective.
+    /// @param with_shares whether shares() is asked for
+    BondLimits(const Body<dim>         &body,
+               const DiscreteBody<dim> &discretisation,
+               const Families<dim>     &families,
+               const BondList          &bonds,
+               const bool               with_shares = false);
+
+    double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
+
+    /// The stretch at which a bond begins to soften: that with which families bear the tensile strength, of
+    /// the weaker material; or a share of the stretch at which it would break at once.
+    double first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
+
+    /// What cracks take of the fracture energy, by direction.
+    const EnergyByDirection &shares() const { return calibrated.shares; }
+
+  private:
+    /// The square of the stretch for an end of a material.
+    double square(const dealii::types::material_id id, const double of_unit_energy) const;
+
+    const Body<dim>     &body;
+    const Families<dim> &families;
+    CalibratedStretches  calibrated;
+  };
+} // namespace perideal
+
+#endif
