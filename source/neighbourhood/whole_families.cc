@@ -42,15 +42,20 @@ namespace perideal
     NodalVector marks(make_partitioner(1));
     for (LocalIndex i = 0; i < n_owned(); ++i)
       marks.local_element(i) = chosen[i] ? 1. : 0.;
-    visit_members(chosen, [&](const LocalIndex, const LocalIndex j) {
+    // What owners say counts.
+    const auto of_all_nodes = [&] {
+      marks.update_ghost_values();
+      std::vector<bool> result(n_local());
+      for (LocalIndex i = 0; i < n_local(); ++i)
+        result[i] = marks.local_element(i) > 0;
+      marks.zero_out_ghost_values();
+      return result;
+    };
+    visit_members(of_all_nodes(), [&](const LocalIndex, const LocalIndex j) {
       if (j < n_owned())
         marks.local_element(j) = 1.;
     });
-    marks.update_ghost_values();
-    std::vector<bool> result(n_local());
-    for (LocalIndex i = 0; i < n_local(); ++i)
-      result[i] = marks.local_element(i) > 0;
-    return result;
+    return of_all_nodes();
   }
 
   template <int dim>

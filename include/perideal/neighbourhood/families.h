@@ -54,6 +54,7 @@ namespace perideal
     std::shared_ptr<const Families> whole_families(const std::vector<bool> &chosen) const;
 
     /// Returns these nodes and the members of their whole families, by local node. Collective.
+    /// @param chosen by local node; of ghosts their owners decide
     std::vector<bool> with_members(const std::vector<bool> &chosen) const;
 
     /// Whether all members of an owned node are listed.

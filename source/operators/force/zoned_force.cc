@@ -113,7 +113,7 @@ namespace perideal
     for (LocalIndex i = 0; i < listed.n_rows(); ++i)
       for (BondIndex slot = listed.row[i]; slot < listed.row[i + 1]; ++slot)
         if (const LocalIndex j = listed.neighbour[slot];
-            j != i && !near[i] && is_cut(families->position[i], families->position[j]))
+            j != i && is_cut(families->position[i], families->position[j]))
           near[i] = near[j] = true;
     add(making.chosen, families->with_members(families->with_members(near)));
     make_bonds();

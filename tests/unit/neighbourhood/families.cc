@@ -80,8 +80,10 @@ namespace
     std::vector<bool> chosen(all.n_local());
     for (LocalIndex i = 0; i < all.n_local(); ++i)
       chosen[i] = test::scatter(all.position[i], 3) > 0.5;
-    const auto some = listed.whole_families(chosen);
-    const auto near = listed.with_members(chosen);
+    const auto        some = listed.whole_families(chosen);
+    std::vector<bool> said_by_owners(chosen);
+    std::fill(said_by_owners.begin() + all.n_owned(), said_by_owners.end(), false);
+    const auto near = listed.with_members(said_by_owners);
     for (LocalIndex i = 0; i < all.n_owned(); ++i)
       {
         std::vector<LocalIndex> expected;
