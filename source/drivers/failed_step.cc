@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/drivers/failed_step.h>
 #include <perideal/output/progress.h>
+#include <perideal/output/summary.h>
 
 namespace perideal
 {
