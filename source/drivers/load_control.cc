@@ -3,6 +3,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/drivers/load_control.h>
 #include <perideal/output/progress.h>
+#include <perideal/output/summary.h>
 #include <perideal/problem/make_gauges.h>
 
 #include <deal.II/base/mpi.h>
