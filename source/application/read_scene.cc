@@ -186,7 +186,8 @@ namespace perideal
     scene.model.resolve(scene.dimension,
                         can_break(scene)                ? Use::failure :
                         scene.solver.is_linear_static() ? Use::statics :
-                                                          Use::motion);
+                                                          Use::motion,
+                        scene.solver.is_dynamic());
     if (scene.model.stretch_formula == StretchFormula::automatic)
       scene.model.stretch_formula = scene.material.softens() || scene.material.has_fracture_energies() ?
                                       StretchFormula::bonds :

@@ -124,7 +124,7 @@ namespace perideal
     prm.leave_subsection();
   }
 
-  void ModelParameters::resolve(const int dimension, const Use use)
+  void ModelParameters::resolve(const int dimension, const Use use, const bool moves)
   {
     if (form == automatic)
       form = use == Use::statics ? model->default_forms.statics :
@@ -133,8 +133,12 @@ namespace perideal
     const FormTraits &traits = form_traits();
     if (influence_function == automatic)
       influence_function = traits.defaults.influence_function;
-    if (stabilisation == automatic && traits.defaults.stabilisation[dimension - 2] > 0)
-      stabilisation = std::to_string(traits.defaults.stabilisation[dimension - 2]);
+    double of_form = traits.defaults.stabilisation[dimension - 2];
+    if (const double in_motion = traits.defaults.stabilisation_in_motion[dimension - 2];
+        moves && in_motion > 0)
+      of_form = in_motion;
+    if (stabilisation == automatic && of_form > 0)
+      stabilisation = std::to_string(of_form);
   }
 
   ModelParameters ModelParameters::in_zone() const

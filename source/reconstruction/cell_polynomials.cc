@@ -132,25 +132,35 @@ namespace perideal
           node, fit.undetermined(), fit.squares_across(surfaces), result.moments[node], stiffness_here());
     }
 
-    /// The cells around a cell, and around those behind it.
+    /// The cells around a cell, and where it lies at a surface, around those behind it: three layers, four of
+    /// values.
     Stencil near(const Cell &cell) const
     {
-      Stencil stencil = graph.nodes_around(graph.node_of(cell));
+      Stencil    stencil = graph.nodes_around(graph.node_of(cell));
+      const auto add = [&](const Stencil &more) { stencil.insert(stencil.end(), more.begin(), more.end()); };
       for (const unsigned int f : cell->face_indices())
         if (ends_at(cell, f))
-          visit_beyond(cell, dealii::GeometryInfo<dim>::opposite_face[f], [&](const Cell &behind) {
-            const Stencil &more = graph.nodes_around(graph.node_of(behind));
-            stencil.insert(stencil.end(), more.begin(), more.end());
-          });
+          {
+            const unsigned int inwards = dealii::GeometryInfo<dim>::opposite_face[f];
+            visit_beyond<dim>(cell, inwards, [&](const Cell &behind) {
+              add(graph.nodes_around(graph.node_of(behind)));
+              if (looks_deep() && is_alike(graph.node_of(behind)))
+                add(graph.nodes_beyond(
+                  behind, dealii::GeometryInfo<dim>::opposite_face[cell->neighbor_face_no(inwards)]));
+            });
+          }
       clean(stencil);
       return stencil;
     }
+
+    bool looks_deep() const { return result.unknown == CellUnknown::value; }
 
     /// Whether the body or its material ends at a face of the cell, or a crack is there.
     bool ends_at(const Cell &cell, const unsigned int f) const
     {
       bool result = cell->at_boundary(f);
-      visit_beyond(cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
+      visit_beyond<dim>(
+        cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
       return result;
     }
 
@@ -177,18 +187,6 @@ namespace perideal
       const auto existing = stiffness_of.find(id);
       return existing != stiffness_of.end() ? existing->second :
                                               stiffness_of.emplace(id, stiffness(id)).first->second;
-    }
-
-    template <typename Visit>
-    static void visit_beyond(const Cell &cell, const unsigned int f, const Visit &visit)
-    {
-      if (cell->at_boundary(f))
-        return;
-      if (cell->face(f)->has_children())
-        for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
-          visit(Cell(cell->neighbor_child_on_subface(f, s)));
-      else
-        visit(Cell(cell->neighbor(f)));
     }
 
     Stencil with_ring(const Cell &cell, const Stencil &stencil) const
@@ -237,7 +235,10 @@ namespace perideal
       for (const LocalIndex k : stencil)
         if (k != node)
           others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k)});
-      fit.reinit(moment_of_unknown(node), others, result.moments[node]);
+      fit.reinit(moment_of_unknown(node),
+                 others,
+                 result.moments[node],
+                 looks_deep() ? WeightsAbout::middle : WeightsAbout::cell);
     }
 
     CellPolynomials                              &result;
@@ -257,7 +258,7 @@ namespace perideal
                                         const Stiffness          &stiffness,
                                         const BondPredicate<dim> &is_cut,
                                         const CellUnknown         unknown)
-    : cells(mesh, nodes, GhostLayers::two)
+    : cells(mesh, nodes, unknown == CellUnknown::value ? GhostLayers::three : GhostLayers::two)
     , unknown(unknown)
     , moments(nodes.size())
     , centroid(nodes.size())

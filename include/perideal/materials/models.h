@@ -102,7 +102,8 @@ namespace perideal
     };
 
     /// Puts what serves the model best in the place of "automatic".
-    void resolve(const int dimension, const Use use = Use::statics);
+    /// @param moves whether the scene is one of dynamics
+    void resolve(const int dimension, const Use use = Use::statics, const bool moves = false);
 
     /// What the chosen form says of itself; as long as it is "automatic", or none of the model, what forms
     /// are unless they say otherwise.

@@ -78,6 +78,8 @@ namespace perideal
       std::string influence_function = "constant";
       /// Of Material/Stabilisation, in 2-D and 3-D [-]; 0: nothing is stabilised.
       std::array<double, 2> stabilisation = {{0., 0.}};
+      /// The same in dynamics, where it bounds the time step too; 0: that at rest.
+      std::array<double, 2> stabilisation_in_motion = {{0., 0.}};
       /// Horizon over spacing that its bonds have whatever Nodes/Horizon factor says; 0: they have that [-].
       double horizon_factor = 0.;
     };

@@ -14,12 +14,21 @@
 
 namespace perideal
 {
+  /// Where the weights of a fit are largest: at its cell, or in the middle of the stencil. At a surface the
+  /// latter leans less on the layers next to it.
+  enum class WeightsAbout
+  {
+    cell,
+    middle
+  };
+
   /**
    * Fits quadratics to the means of cells around one of them, whose mean they keep (CellPolynomials).
    *
    * Distances are measured with the inverse covariance of the stencil, so that stretched and sheared cells
-   * weigh as their undeformed images would; weights are exp(-|y|^2/2). Linear terms are fitted first and
-   * quadratics to what they leave, so that these stay exact where the cells do not determine those.
+   * weigh as their undeformed images would; weights are exp(-|y|^2/2), y from WeightsAbout. Linear terms are
+   * fitted first and quadratics to what they leave, so that these stay exact where the cells do not determine
+   * those.
    */
   template <int dim>
   class QuadraticFit
@@ -41,7 +50,8 @@ namespace perideal
     /// @param size second moment of the cell in the middle, by which a layer of cells is told from two
     void reinit(const dealii::SymmetricTensor<2, dim> &own,
                 const std::vector<Cell>               &others,
-                const dealii::SymmetricTensor<2, dim> &size);
+                const dealii::SymmetricTensor<2, dim> &size,
+                const WeightsAbout                     about = WeightsAbout::cell);
 
     /// Whether the cells determine all linear terms, and all terms.
     bool is_solid() const { return solid; }
@@ -79,7 +89,9 @@ namespace perideal
       Eigen::Matrix<double, n_quadratic, Eigen::Dynamic, Eigen::ColMajor, n_quadratic, n_quadratic>;
 
     void      find_metric(const std::vector<Cell> &others, const dealii::SymmetricTensor<2, dim> &size);
-    void      fill_rows(const dealii::SymmetricTensor<2, dim> &own, const std::vector<Cell> &others);
+    void      fill_rows(const dealii::SymmetricTensor<2, dim> &own,
+                        const std::vector<Cell>               &others,
+                        const WeightsAbout                     about);
     Quadratic inverse_of(const Quadratic &gram, const double size);
     void      solve();
     /// Mean of q (x) q over the squares q that are nearer to what is left out than to the other quadratics.
@@ -88,6 +100,7 @@ namespace perideal
     Terms terms_of_x(const LinearTerms &linear, const QuadraticTerms &quadratic) const;
 
     Metric             metric;
+    LinearTerms        middle;
     Rows               rows_of_means;
     Eigen::VectorXd    weight;
     std::vector<Terms> result;

@@ -3,6 +3,7 @@
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"
+#include "dense_matrix.h"
 #include "moments.h"
 #include "testing.h"
 
@@ -25,7 +26,7 @@ namespace
       , constants{70e9, 0.25, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid}
     {
       ModelParameters parameters;
-      parameters.resolve(dim);
+      parameters.resolve(dim, ModelParameters::Use::motion, true);
       bonds =
         test::make_consistent_operator<dim>(body.families,
                                             test::make_moments(*mesh,
@@ -122,7 +123,64 @@ namespace
                  fine   = waves.speeds(directions[1], 24.)[0] - 1.;
     EXPECT_GE(std::abs(coarse / fine), 12.);
   }
+
+  /// Largest frequency of a free body of density one.
+  template <int dim>
+  double largest_frequency(const BondOperator<dim> &bonds, const std::vector<double> &volumes)
+  {
+    dealii::FullMatrix<double> stiffness = test::dense_matrix(bonds);
+    for (unsigned int r = 0; r < stiffness.m(); ++r)
+      for (unsigned int c = 0; c < stiffness.n(); ++c)
+        stiffness(r, c) /= std::sqrt(volumes[r / dim] * volumes[c / dim]);
+    dealii::LAPACKFullMatrix<double> matrix(stiffness.m());
+    matrix = stiffness;
+    dealii::Vector<double>     values;
+    dealii::FullMatrix<double> vectors;
+    matrix.compute_eigenvalues_symmetric(-1., 1e30, 0., values, vectors);
+    return std::sqrt(values[values.size() - 1]);
+  }
+
+  /// Stable steps of the consistent form over those of the energy form with its longer bonds, surfaces
+  /// included.
+  template <int dim>
+  void expect_stable_step(const unsigned int n_cells, const double distortion, const double least)
+  {
+    dealii::Point<dim> size;
+    for (int d = 0; d < dim; ++d)
+      size[d] = 1.;
+    const auto mesh =
+      test::make_box<dim>(std::vector<unsigned int>(dim, n_cells), size, distortion, MPI_COMM_SELF);
+    const ElasticConstants constants{
+      70e9, 0.25, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid};
+    const auto      solid_of = [&](const auto) { return ElasticSolid<dim>(constants); };
+    ModelParameters of_faces, of_bonds;
+    test::Body<dim> near(*mesh, 2.01), far(*mesh, 3.01);
+    of_faces.resolve(dim, ModelParameters::Use::motion, true);
+    of_bonds.form = "energy";
+    of_bonds.resolve(dim, ModelParameters::Use::motion, true);
+    const double of_consistent = largest_frequency<dim>(
+      *test::make_consistent_operator<dim>(near.families,
+                                           test::make_moments(*mesh,
+                                                              near.nodes,
+                                                              std::make_shared<const FaceValues<dim>>(),
+                                                              BondPredicate<dim>(),
+                                                              CellUnknown::value),
+                                           create_consistent<dim>(of_faces, 2.01),
+                                           solid_of),
+      near.nodes.volume);
+    const double of_energy = largest_frequency<dim>(
+      *create_bond_operator<dim>(far.families, *create_model<dim>(of_bonds, 1.), solid_of), far.nodes.volume);
+    EXPECT_GE(of_energy / of_consistent, least);
+  }
 } // namespace
+
+TEST(Dispersion, StableStepNearThatOfTheEnergyForm)
+{
+  expect_stable_step<2>(12, 0., 0.36);
+  expect_stable_step<2>(12, 0.3, 0.36);
+  expect_stable_step<3>(6, 0., 0.34);
+  expect_stable_step<3>(6, 0.3, 0.34);
+}
 
 TEST(Dispersion, PhaseSpeedsOfPlaneWaves2D)
 {
