@@ -24,24 +24,16 @@ namespace perideal
   {
     exchange_ghosts(mesh);
     collect_cells_at_vertices(mesh);
-    if (layers != GhostLayers::one || mesh.material_ids.size() > 1)
+    if (layers == GhostLayers::two || mesh.material_ids.size() > 1)
       exchange_second_layer(mesh, layers);
-    if (layers != GhostLayers::one)
+    if (layers == GhostLayers::two)
       {
         around.owned.resize(n_owned_nodes);
         for (const Cell &cell : mesh.triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
             around.owned[node_of(cell)] = cells_around(cell);
       }
-    if (layers == GhostLayers::three)
-      exchange_third_layer(mesh);
     local_number_of_ghost.clear();
-  }
-
-  template <int dim>
-  typename CellGraph<dim>::Ghost CellGraph<dim>::ghost_of(const LocalIndex node) const
-  {
-    return {global_number(node), {position[node], material[node]}};
   }
 
   template <int dim>
@@ -64,7 +56,10 @@ namespace perideal
   {
     dealii::GridTools::exchange_cell_data_to_ghosts<Ghost, dealii::Triangulation<dim>>(
       mesh.triangulation,
-      [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghost> { return ghost_of(node_of(cell)); },
+      [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghost> {
+        const LocalIndex i = node_of(cell);
+        return Ghost(first_global + i, {position[i], material[i]});
+      },
       [&](const Cell &cell, const Ghost &ghost) {
         node_of_cell[cell->active_cell_index()] = add_ghost(ghost);
       });
@@ -133,7 +128,7 @@ namespace perideal
           return {};
         Ghosts result;
         for (const LocalIndex i : touching)
-          result.push_back(ghost_of(i));
+          result.emplace_back(global_number(i), std::make_pair(position[i], material[i]));
         return result;
       },
       [&](const Cell &cell, const Ghosts &ghosts) { received.emplace_back(node_of(cell), ghosts); });
@@ -144,41 +139,6 @@ namespace perideal
           of_ghost.push_back(add_ghost(ghost));
         std::sort(of_ghost.begin(), of_ghost.end());
       }
-  }
-
-  template <int dim>
-  std::vector<LocalIndex> CellGraph<dim>::nodes_beyond(const Cell &cell, const unsigned int face) const
-  {
-    if (!cell->is_locally_owned())
-      return around.beyond.at(node_of(cell))[face];
-    std::vector<LocalIndex> result;
-    visit_beyond<dim>(cell, face, [&](const Cell &other) {
-      const auto &more = nodes_around(node_of(other));
-      result.insert(result.end(), more.begin(), more.end());
-    });
-    return result;
-  }
-
-  template <int dim>
-  void CellGraph<dim>::exchange_third_layer(const Mesh<dim> &mesh)
-  {
-    constexpr unsigned int n_faces = dealii::GeometryInfo<dim>::faces_per_cell;
-    using Ghosts                   = std::vector<std::vector<Ghost>>;
-    std::vector<std::pair<LocalIndex, Ghosts>> received;
-    dealii::GridTools::exchange_cell_data_to_ghosts<Ghosts, dealii::Triangulation<dim>>(
-      mesh.triangulation,
-      [&](const Cell &cell) -> dealii::std_cxx17::optional<Ghosts> {
-        Ghosts result(n_faces);
-        for (unsigned int f = 0; f < n_faces; ++f)
-          for (const LocalIndex i : nodes_beyond(cell, f))
-            result[f].push_back(ghost_of(i));
-        return result;
-      },
-      [&](const Cell &cell, const Ghosts &ghosts) { received.emplace_back(node_of(cell), ghosts); });
-    for (const auto &list : received)
-      for (unsigned int f = 0; f < n_faces; ++f)
-        for (const Ghost &ghost : list.second[f])
-          around.beyond[list.first][f].push_back(add_ghost(ghost));
   }
 
   template <int dim>

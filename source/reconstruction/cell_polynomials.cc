@@ -132,35 +132,25 @@ namespace perideal
           node, fit.undetermined(), fit.squares_across(surfaces), result.moments[node], stiffness_here());
     }
 
-    /// The cells around a cell, and where it lies at a surface, around those behind it: three layers, four of
-    /// values.
+    /// The cells around a cell, and around those behind it.
     Stencil near(const Cell &cell) const
     {
-      Stencil    stencil = graph.nodes_around(graph.node_of(cell));
-      const auto add = [&](const Stencil &more) { stencil.insert(stencil.end(), more.begin(), more.end()); };
+      Stencil stencil = graph.nodes_around(graph.node_of(cell));
       for (const unsigned int f : cell->face_indices())
         if (ends_at(cell, f))
-          {
-            const unsigned int inwards = dealii::GeometryInfo<dim>::opposite_face[f];
-            visit_beyond<dim>(cell, inwards, [&](const Cell &behind) {
-              add(graph.nodes_around(graph.node_of(behind)));
-              if (looks_deep() && is_alike(graph.node_of(behind)))
-                add(graph.nodes_beyond(
-                  behind, dealii::GeometryInfo<dim>::opposite_face[cell->neighbor_face_no(inwards)]));
-            });
-          }
+          visit_beyond(cell, dealii::GeometryInfo<dim>::opposite_face[f], [&](const Cell &behind) {
+            const Stencil &more = graph.nodes_around(graph.node_of(behind));
+            stencil.insert(stencil.end(), more.begin(), more.end());
+          });
       clean(stencil);
       return stencil;
     }
-
-    bool looks_deep() const { return result.unknown == CellUnknown::value; }
 
     /// Whether the body or its material ends at a face of the cell, or a crack is there.
     bool ends_at(const Cell &cell, const unsigned int f) const
     {
       bool result = cell->at_boundary(f);
-      visit_beyond<dim>(
-        cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
+      visit_beyond(cell, f, [&](const Cell &other) { result = result || !is_alike(graph.node_of(other)); });
       return result;
     }
 
@@ -187,6 +177,18 @@ namespace perideal
       const auto existing = stiffness_of.find(id);
       return existing != stiffness_of.end() ? existing->second :
                                               stiffness_of.emplace(id, stiffness(id)).first->second;
+    }
+
+    template <typename Visit>
+    static void visit_beyond(const Cell &cell, const unsigned int f, const Visit &visit)
+    {
+      if (cell->at_boundary(f))
+        return;
+      if (cell->face(f)->has_children())
+        for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
+          visit(Cell(cell->neighbor_child_on_subface(f, s)));
+      else
+        visit(Cell(cell->neighbor(f)));
     }
 
     Stencil with_ring(const Cell &cell, const Stencil &stencil) const
@@ -229,16 +231,18 @@ namespace perideal
       return result.unknown == CellUnknown::mean ? result.moments[k] : dealii::SymmetricTensor<2, dim>();
     }
 
+    /// Of the weights of fits. Nearly even ones lengthen the stable step by 5 % (distorted squares) to 15 %
+    /// (cubes), while the speed of surface waves stays as it is. A fourth layer of cells at surfaces would
+    /// lengthen it by a further 20 % and treble the error of that speed at 12 cells a wave.
+    double decay() const { return result.unknown == CellUnknown::value ? 0.1 : 0.5; }
+
     void fit_to(const Stencil &stencil)
     {
       others.clear();
       for (const LocalIndex k : stencil)
         if (k != node)
           others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k)});
-      fit.reinit(moment_of_unknown(node),
-                 others,
-                 result.moments[node],
-                 looks_deep() ? WeightsAbout::middle : WeightsAbout::cell);
+      fit.reinit(moment_of_unknown(node), others, result.moments[node], decay());
     }
 
     CellPolynomials                              &result;
@@ -258,7 +262,7 @@ namespace perideal
                                         const Stiffness          &stiffness,
                                         const BondPredicate<dim> &is_cut,
                                         const CellUnknown         unknown)
-    : cells(mesh, nodes, unknown == CellUnknown::value ? GhostLayers::three : GhostLayers::two)
+    : cells(mesh, nodes, GhostLayers::two)
     , unknown(unknown)
     , moments(nodes.size())
     , centroid(nodes.size())

@@ -78,17 +78,15 @@ namespace perideal
     Metric covariance = sum - mean * mean.transpose();
     drop_across_one_layer(to_eigen(size), covariance);
     // Aspect ratios up to 1e5 count as solid.
-    solid  = inverse_root<dim>(covariance, 1e-10 * covariance.trace(), metric);
-    middle = metric * mean;
+    solid = inverse_root<dim>(covariance, 1e-10 * covariance.trace(), metric);
   }
 
   template <int dim>
   void QuadraticFit<dim>::fill_rows(const dealii::SymmetricTensor<2, dim> &own,
                                     const std::vector<Cell>               &others,
-                                    const WeightsAbout                     about)
+                                    const double                           decay)
   {
-    const LinearTerms heaviest    = about == WeightsAbout::middle ? middle : LinearTerms(LinearTerms::Zero());
-    const auto        means_about = [&](const Eigen::Matrix<double, dim, 1>   &y,
+    const auto means_about = [&](const Eigen::Matrix<double, dim, 1>   &y,
                                  const dealii::SymmetricTensor<2, dim> &second_moment,
                                  std::array<double, n_terms>           &means) {
       const Metric square = y * y.transpose() + metric * to_eigen(second_moment) * metric.transpose();
@@ -106,7 +104,7 @@ namespace perideal
       {
         const Eigen::Matrix<double, dim, 1> y = metric * to_eigen(others[k].distance);
         means_about(y, others[k].second_moment, means);
-        weight[k] = std::exp(-0.25 * (y - heaviest).squaredNorm()); // the root of the weight
+        weight[k] = std::exp(-0.5 * decay * y.squaredNorm()); // the root of the weight
         for (unsigned int t = 0; t < n_terms; ++t)
           rows_of_means(k, t) = weight[k] * (means[t] - at_middle[t]);
       }
@@ -251,10 +249,10 @@ namespace perideal
   void QuadraticFit<dim>::reinit(const dealii::SymmetricTensor<2, dim> &own,
                                  const std::vector<Cell>               &others,
                                  const dealii::SymmetricTensor<2, dim> &size,
-                                 const WeightsAbout                     about)
+                                 const double                           decay)
   {
     find_metric(others, size);
-    fill_rows(own, others, about);
+    fill_rows(own, others, decay);
     solve();
   }
 

@@ -8,7 +8,6 @@
 #include <deal.II/base/partitioner.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -17,13 +16,11 @@
 namespace perideal
 {
   /// How many layers of cells of other ranks a graph knows: those that touch its own, where another material
-  /// lies beside these also what touches them; that always; or of each face of these also what touches the
-  /// cell beyond it.
+  /// lies beside these also what touches them; or always.
   enum class GhostLayers
   {
     one,
-    two,
-    three
+    two
   };
 
   /**
@@ -69,11 +66,7 @@ namespace perideal
       return node < n_owned_nodes ? around.owned[node] : around.ghost.at(node);
     }
 
-    /// The nodes around those beyond a face of a cell, of graphs of three layers: of owned cells and of those
-    /// that touch them; none at the boundary.
-    std::vector<LocalIndex> nodes_beyond(const Cell &cell, const unsigned int face) const;
-
-    /// Frees what nodes_around() and nodes_beyond() need.
+    /// Frees what nodes_around() needs.
     void forget_layers();
 
     /// The values of all local nodes from those of the owned ones, for types made of
@@ -105,12 +98,10 @@ namespace perideal
     /// What ranks tell each other of a node.
     using Ghost = std::pair<GlobalIndex, std::pair<dealii::Point<dim>, dealii::types::material_id>>;
 
-    Ghost      ghost_of(const LocalIndex node) const;
     LocalIndex add_ghost(const Ghost &ghost);
     void       exchange_ghosts(const Mesh<dim> &mesh);
     void       collect_cells_at_vertices(const Mesh<dim> &mesh);
     void       exchange_second_layer(const Mesh<dim> &mesh, const GhostLayers layers);
-    void       exchange_third_layer(const Mesh<dim> &mesh);
 
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
@@ -118,32 +109,15 @@ namespace perideal
     /// Cells at each vertex.
     std::vector<unsigned int> first;
     std::vector<LocalIndex>   cells;
-    /// cells_around() of ghosts of which a second layer is known, and of owned cells of graphs of two layers;
-    /// nodes_beyond() the faces of ghosts, of graphs of three.
+    /// cells_around() of ghosts of which a second layer is known, and of owned cells of graphs of two layers.
     struct Around
     {
-      using Nodes = std::vector<LocalIndex>;
-      std::map<LocalIndex, Nodes> ghost;
-      std::vector<Nodes>          owned;
-
-      std::map<LocalIndex, std::array<Nodes, dealii::GeometryInfo<dim>::faces_per_cell>> beyond;
+      std::map<LocalIndex, std::vector<LocalIndex>> ghost;
+      std::vector<std::vector<LocalIndex>>          owned;
     };
     Around                            around;
     std::map<GlobalIndex, LocalIndex> local_number_of_ghost;
   };
-
-  /// Calls visit(cell) for the active cells beyond a face: several where it is refined, none at the boundary.
-  template <int dim, typename Cell, typename Visit>
-  void visit_beyond(const Cell &cell, const unsigned int face, const Visit &visit)
-  {
-    if (cell->at_boundary(face))
-      return;
-    if (cell->face(face)->has_children())
-      for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
-        visit(Cell(cell->neighbor_child_on_subface(face, s)));
-    else
-      visit(Cell(cell->neighbor(face)));
-  }
 
   template <int dim>
   template <typename Value>

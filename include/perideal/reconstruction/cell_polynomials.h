@@ -33,13 +33,10 @@ namespace perideal
    * of weighted least squares with the means of the monomials over each cell: exact for quadratic fields on
    * any mesh. Or it fits values at the centroids, in the same way without means of m_t: so in motion, where
    * the kinetic energy of a plane wave is that of masses with these values up to fourth order, of masses with
-   * the means up to second.
+   * the means up to second; weights are nearly even then, which bounds the largest eigenvalue.
    *
    * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies
-   * at the boundary or at another material, those around the cell behind it: three layers. Values take a
-   * fourth, the cells around the one behind that, with weights about the middle of the stencil: the largest
-   * eigenvalue of a body falls by half, and its stable step is 1.4 times as long. (Errors of means in statics
-   * would be three times as large.) Where they do not determine all
+   * at the boundary or at another material, those around the cell behind it. Where they do not determine all
    * quadratics it takes one ring more; what no ring determines is left out: linear terms are fitted first,
    * quadratics to what these leave. closure() says what a displacement has in its place.
    *

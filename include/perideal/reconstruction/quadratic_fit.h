@@ -14,21 +14,12 @@
 
 namespace perideal
 {
-  /// Where the weights of a fit are largest: at its cell, or in the middle of the stencil. At a surface the
-  /// latter leans less on the layers next to it.
-  enum class WeightsAbout
-  {
-    cell,
-    middle
-  };
-
   /**
    * Fits quadratics to the means of cells around one of them, whose mean they keep (CellPolynomials).
    *
    * Distances are measured with the inverse covariance of the stencil, so that stretched and sheared cells
-   * weigh as their undeformed images would; weights are exp(-|y|^2/2), y from WeightsAbout. Linear terms are
-   * fitted first and quadratics to what they leave, so that these stay exact where the cells do not determine
-   * those.
+   * weigh as their undeformed images would; weights are exp(-decay |y|^2). Linear terms are fitted first and
+   * quadratics to what they leave, so that these stay exact where the cells do not determine those.
    */
   template <int dim>
   class QuadraticFit
@@ -48,10 +39,12 @@ namespace perideal
     /// @param own second moment of the cell in the middle, or zero where values stand for means
     /// @param others without that cell
     /// @param size second moment of the cell in the middle, by which a layer of cells is told from two
+    /// @param decay of the weights; the flatter, the smaller the largest eigenvalue of a body, the larger
+    /// errors
     void reinit(const dealii::SymmetricTensor<2, dim> &own,
                 const std::vector<Cell>               &others,
                 const dealii::SymmetricTensor<2, dim> &size,
-                const WeightsAbout                     about = WeightsAbout::cell);
+                const double                           decay = 0.5);
 
     /// Whether the cells determine all linear terms, and all terms.
     bool is_solid() const { return solid; }
@@ -91,7 +84,7 @@ namespace perideal
     void      find_metric(const std::vector<Cell> &others, const dealii::SymmetricTensor<2, dim> &size);
     void      fill_rows(const dealii::SymmetricTensor<2, dim> &own,
                         const std::vector<Cell>               &others,
-                        const WeightsAbout                     about);
+                        const double                           decay);
     Quadratic inverse_of(const Quadratic &gram, const double size);
     void      solve();
     /// Mean of q (x) q over the squares q that are nearer to what is left out than to the other quadratics.
@@ -100,7 +93,6 @@ namespace perideal
     Terms terms_of_x(const LinearTerms &linear, const QuadraticTerms &quadratic) const;
 
     Metric             metric;
-    LinearTerms        middle;
     Rows               rows_of_means;
     Eigen::VectorXd    weight;
     std::vector<Terms> result;
