@@ -6,6 +6,7 @@
 # does not compile, mostly a name in an unnamed namespace is also that of a public class or function: give it one of its
 # own.
 set(perideal_sources
+  base/child_process.cc
   base/exceptions.cc
   base/finite.cc
   base/hdf5.cc
