@@ -12,6 +12,7 @@ set(perideal_sources
   base/hdf5.cc
   base/input_errors.cc
   base/least_squares.cc
+  base/python_tool.cc
   base/registry.cc
   base/rendezvous.cc
   base/rigid_body_motions.cc
@@ -121,6 +122,7 @@ set(perideal_sources
   output/files.cc
   output/history.cc
   output/lasting_state.cc
+  output/pictures.cc
   output/profiles.cc
   output/progress.cc
   output/summary.cc
@@ -313,7 +315,9 @@ set(perideal_sources
   application/command_line.cc
   application/conditional_settings.cc
   application/gate.cc
+  application/plot.cc
   application/print_parameters.cc
+  application/process_scene.cc
   application/read_scene.cc
   application/rules.cc
   application/rules_failure.cc

@@ -14,6 +14,7 @@ namespace perideal
     {
       run,
       check,
+      plot,
       print_parameters,
       print_rules,
       help,
@@ -23,6 +24,8 @@ namespace perideal
     std::string scene_file;
     /// Texts of --set.
     std::vector<std::string> overrides;
+    /// Output directories of runs that have ended: of --plot.
+    std::vector<std::string> directories;
     /// Format of --parameters.
     std::string format = "text";
     /// The whole command, for summary.json.
