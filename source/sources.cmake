@@ -313,6 +313,7 @@ set(perideal_sources
   drivers/static_driver.cc
 
   application/command_line.cc
+  application/compare.cc
   application/conditional_settings.cc
   application/gate.cc
   application/plot.cc
@@ -326,5 +327,6 @@ set(perideal_sources
   application/rules_quadrature.cc
   application/rules_solver.cc
   application/rules_treatments.cc
+  application/sweep.cc
   mesh/mesh_joints.cc
 )

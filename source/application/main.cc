@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/command_line.h>
+#include <perideal/application/compare.h>
 #include <perideal/application/gate.h>
 #include <perideal/application/plot.h>
 #include <perideal/application/process_scene.h>
 #include <perideal/application/rules.h>
+#include <perideal/application/sweep.h>
 #include <perideal/base/versions.h>
 #include <perideal/problem/scene_parameters.h>
 
@@ -45,6 +47,12 @@ namespace
         break;
       case CommandLine::Action::plot:
         text << "pictures    " << plot_run(command_line.directories[0], command_line.overrides) << '\n';
+        break;
+      case CommandLine::Action::sweep:
+        run_sweep(command_line);
+        break;
+      case CommandLine::Action::compare:
+        text << compare_runs(command_line.directories[0], command_line.directories[1]);
         break;
       default:
         process_scene(command_line);

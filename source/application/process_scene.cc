@@ -66,4 +66,17 @@ namespace perideal
         throw file.locate(error);
       }
   }
+
+  void check_parameters(const CommandLine &command_line)
+  {
+    const ParameterFile      file = file_of(command_line);
+    dealii::ParameterHandler prm;
+    SceneParameters          scene;
+    read_scene(file, prm, scene);
+  }
+
+  std::string output_directory(const CommandLine &command_line)
+  {
+    return file_of(command_line).value_of("Output directory", SceneParameters().output_directory);
+  }
 } // namespace perideal

@@ -15,6 +15,8 @@ namespace perideal
       run,
       check,
       plot,
+      sweep,
+      compare,
       print_parameters,
       print_rules,
       help,
@@ -24,7 +26,9 @@ namespace perideal
     std::string scene_file;
     /// Texts of --set.
     std::vector<std::string> overrides;
-    /// Output directories of runs that have ended: of --plot.
+    /// Texts of --sweep.
+    std::vector<std::string> sweeps;
+    /// Output directories of runs that have ended: of --plot or --compare.
     std::vector<std::string> directories;
     /// Format of --parameters.
     std::string format = "text";
