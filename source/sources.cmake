@@ -46,6 +46,9 @@ set(perideal_sources
   geometry/cell_sections.cc
   geometry/facets.cc
 
+  mesh/abaqus_deck.cc
+  mesh/abaqus_lines.cc
+  mesh/abaqus_to_gmsh.cc
   mesh/create_mesh.cc
   mesh/generators.cc
   mesh/gmsh_elements.cc

@@ -119,4 +119,10 @@ namespace perideal
   {
     return text_from_gmsh(geo_file, dim == 2 ? "-2" : "-3", "open the file in gmsh, or run: ", time_limit);
   }
+
+  std::string convert_with_gmsh(const std::string &mesh_file, const double time_limit)
+  {
+    return text_from_gmsh(
+      mesh_file, "-save", "open the file in gmsh to see what is wrong with it, or run: ", time_limit);
+  }
 } // namespace perideal
