@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-# Installation: program, library, headers, and what find_package(perideal) reads.
+# Installation: program, its scripts, library, headers, and what find_package(perideal) reads.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(config_directory ${CMAKE_INSTALL_LIBDIR}/cmake/perideal)
 install(TARGETS perideal)
+install(DIRECTORY tools DESTINATION ${CMAKE_INSTALL_DATADIR}/perideal FILES_MATCHING PATTERN "*.py")
 install(TARGETS perideal_library EXPORT perideal-targets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/perideal ${PROJECT_BINARY_DIR}/include/perideal
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

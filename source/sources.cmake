@@ -6,11 +6,13 @@
 # does not compile, mostly a name in an unnamed namespace is also that of a public class or function: give it one of its
 # own.
 set(perideal_sources
+  base/child_process.cc
   base/exceptions.cc
   base/finite.cc
   base/hdf5.cc
   base/input_errors.cc
   base/least_squares.cc
+  base/python_tool.cc
   base/registry.cc
   base/rendezvous.cc
   base/rigid_body_motions.cc
@@ -44,6 +46,9 @@ set(perideal_sources
   geometry/cell_sections.cc
   geometry/facets.cc
 
+  mesh/abaqus_deck.cc
+  mesh/abaqus_lines.cc
+  mesh/abaqus_to_gmsh.cc
   mesh/create_mesh.cc
   mesh/generators.cc
   mesh/gmsh_elements.cc
@@ -120,6 +125,7 @@ set(perideal_sources
   output/files.cc
   output/history.cc
   output/lasting_state.cc
+  output/pictures.cc
   output/profiles.cc
   output/progress.cc
   output/summary.cc
@@ -310,9 +316,12 @@ set(perideal_sources
   drivers/static_driver.cc
 
   application/command_line.cc
+  application/compare.cc
   application/conditional_settings.cc
   application/gate.cc
+  application/plot.cc
   application/print_parameters.cc
+  application/process_scene.cc
   application/read_scene.cc
   application/rules.cc
   application/rules_failure.cc
@@ -321,5 +330,6 @@ set(perideal_sources
   application/rules_quadrature.cc
   application/rules_solver.cc
   application/rules_treatments.cc
+  application/sweep.cc
   mesh/mesh_joints.cc
 )

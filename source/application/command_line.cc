@@ -8,13 +8,18 @@ namespace perideal
   CommandLine CommandLine::parse(const int argc, const char *const *argv)
   {
     const std::vector<std::string> options = {
-      "--set", "--check", "--parameters", "--rules", "--help", "--version"};
+      "--set", "--check", "--plot", "--sweep", "--compare", "--parameters", "--rules", "--help", "--version"};
     CommandLine result;
     for (int k = 0; k < argc; ++k)
       result.command += (k > 0 ? " " : "") + std::string(argv[k]);
     for (int k = 1; k < argc; ++k)
       {
         const std::string word = argv[k];
+        const auto        next = [&](const std::string &needs, const std::string &allowed) {
+          if (k + 1 == argc)
+            throw InputError(word + " needs " + needs).allowed(allowed);
+          return argv[++k];
+        };
         if (word == "--help" || word == "-h")
           result.action = Action::help;
         else if (word == "--version")
@@ -29,12 +34,26 @@ namespace perideal
           }
         else if (word == "--rules")
           result.action = Action::print_rules;
-        else if (word == "--set")
+        else if (word == "--plot")
           {
-            if (k + 1 == argc)
-              throw InputError("--set needs a parameter and a value").allowed("--set \"Section/Name=value\"");
-            result.overrides.push_back(argv[++k]);
+            result.action = Action::plot;
+            result.directories.push_back(next("the output directory of a run", "--plot DIRECTORY"));
           }
+        else if (word == "--compare")
+          {
+            result.action = Action::compare;
+            for (int directory = 0; directory < 2; ++directory)
+              result.directories.push_back(
+                next("the output directories of two runs", "--compare DIRECTORY DIRECTORY"));
+          }
+        else if (word == "--sweep")
+          {
+            result.action = Action::sweep;
+            result.sweeps.push_back(
+              next("a parameter and its values", "--sweep \"Section/Name=value, value, ...\""));
+          }
+        else if (word == "--set")
+          result.overrides.push_back(next("a parameter and a value", "--set \"Section/Name=value\""));
         else if (word.compare(0, 1, "-") == 0)
           throw InputError("unknown option")
             .given(word)
@@ -47,7 +66,8 @@ namespace perideal
             .given(result.scene_file + " and " + word)
             .allowed("one");
       }
-    if (result.scene_file.empty() && (result.action == Action::run || result.action == Action::check))
+    if (result.scene_file.empty() &&
+        (result.action == Action::run || result.action == Action::check || result.action == Action::sweep))
       throw InputError("no parameter file was given").allowed("perideal FILE.prm; see perideal --help");
     return result;
   }
@@ -61,6 +81,16 @@ namespace perideal
            "linear\n"
            "                                                      statics which mesh would do; write "
            "nothing\n"
+           "  perideal --sweep \"Section/Name=value, value\" FILE.prm [--set ...]\n"
+           "                                                      run the scene with each of the values: one "
+           "table,\n"
+           "                                                      one picture; several --sweep: all "
+           "combinations\n"
+           "  perideal --compare DIRECTORY DIRECTORY              figures of two runs side by side\n"
+           "  perideal --plot DIRECTORY [--set \"Output/Pictures=...\"] [--set \"Output/View=...\"]\n"
+           "                                                      draw the run that left its results there: "
+           "pictures,\n"
+           "                                                      curves, report.html\n"
            "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, "
            "meaning\n"
            "  perideal --rules                                    which choices do not go together, as "

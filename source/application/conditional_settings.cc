@@ -109,6 +109,9 @@ namespace perideal
     std::vector<ConditionalSettings> settings_of_output()
     {
       return {
+        {{"Output/View"},
+         "Dimension = 3, with Output/Pictures or Output/Report",
+         [](const Scene &s) { return s.dimension == 3 && s.pictures.are_wanted(); }},
         {{"Output/Nominal stress"},
          "Output/Boundary stress",
          [](const Scene &s) { return !s.boundary_stress.empty(); }},

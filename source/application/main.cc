@@ -1,65 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/command_line.h>
+#include <perideal/application/compare.h>
 #include <perideal/application/gate.h>
-#include <perideal/application/read_scene.h>
+#include <perideal/application/plot.h>
+#include <perideal/application/process_scene.h>
 #include <perideal/application/rules.h>
-#include <perideal/base/exceptions.h>
+#include <perideal/application/sweep.h>
 #include <perideal/base/versions.h>
-#include <perideal/drivers/driver.h>
+#include <perideal/problem/scene_parameters.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 
 namespace
 {
   using namespace perideal;
-
-  template <int dim>
-  void run_or_check(const SceneParameters &parameters, const RunContext &context, const bool only_check)
-  {
-    Problem<dim> problem(parameters, context, MPI_COMM_WORLD);
-    const auto   driver = create_driver(problem);
-    if (only_check)
-      driver->check();
-    else
-      driver->run();
-  }
-
-  /// Reads the scene and runs it, with errors located in the file.
-  void process(const CommandLine &command_line)
-  {
-    ParameterFile file = ParameterFile::read(command_line.scene_file);
-    for (const std::string &text : command_line.overrides)
-      file.override_with(text);
-    try
-      {
-        dealii::ParameterHandler prm;
-        SceneParameters          scene;
-        read_scene(file, prm, scene);
-
-        RunContext context;
-        context.command         = command_line.command;
-        context.scene_directory = std::filesystem::path(command_line.scene_file).parent_path().string();
-        std::ostringstream json;
-        prm.print_parameters(
-          json, dealii::ParameterHandler::ShortJSON | dealii::ParameterHandler::KeepDeclarationOrder);
-        context.parameters = nlohmann::ordered_json::parse(json.str());
-
-        const bool only_check = command_line.action == CommandLine::Action::check;
-        if (scene.dimension == 2)
-          run_or_check<2>(scene, context, only_check);
-        else
-          run_or_check<3>(scene, context, only_check);
-      }
-    catch (const InputError &error)
-      {
-        throw file.locate(error);
-      }
-  }
 
   std::string version_text()
   {
@@ -87,8 +45,17 @@ namespace
       case CommandLine::Action::print_rules:
         print_rules(text);
         break;
+      case CommandLine::Action::plot:
+        text << "pictures    " << plot_run(command_line.directories[0], command_line.overrides) << '\n';
+        break;
+      case CommandLine::Action::sweep:
+        run_sweep(command_line);
+        break;
+      case CommandLine::Action::compare:
+        text << compare_runs(command_line.directories[0], command_line.directories[1]);
+        break;
       default:
-        process(command_line);
+        process_scene(command_line);
       }
     if (speaks)
       std::cout << text.str() << std::flush;

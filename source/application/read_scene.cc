@@ -5,6 +5,8 @@
 #include <perideal/parameters/declarations.h>
 #include <perideal/problem/output_fields.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 
 namespace perideal
@@ -121,13 +123,17 @@ namespace perideal
     void check_fields(const SceneParameters &scene, InputErrorCollector &mistakes)
     {
       const auto known = output_field_names();
-      for (const std::string &field : scene.field_names())
-        if (std::find(known.begin(), known.end(), field) == known.end())
-          mistakes.add(InputError("unknown field")
-                         .parameter("Output/Fields")
-                         .given(field)
-                         .allowed(join_choices(known))
-                         .nearest(nearest_name(field, known)));
+      const auto look  = [&](const std::string &parameter, const std::vector<std::string> &fields) {
+        for (const std::string &field : fields)
+          if (std::find(known.begin(), known.end(), field) == known.end())
+            mistakes.add(InputError("unknown field")
+                           .parameter(parameter)
+                           .given(field)
+                           .allowed(join_choices(known))
+                           .nearest(nearest_name(field, known)));
+      };
+      look("Output/Fields", dealii::Utilities::split_string_list(scene.fields, ','));
+      look("Output/Pictures", scene.pictures.field_names());
     }
 
     /// Looks at each section by itself.
@@ -140,6 +146,7 @@ namespace perideal
       mistakes.collect([&] { scene.solver.check(); });
       mistakes.collect([&] { scene.cracks.check(); });
       mistakes.collect([&] { scene.contact.check(); });
+      mistakes.collect([&] { scene.pictures.check(); });
       if (scene.dimension == 2)
         read_texts<2>(scene, mistakes);
       else

@@ -15,10 +15,27 @@ namespace perideal
     const std::vector<std::string> fields_of_motion  = {"velocity"},
                                    fields_of_failure = {"damage", "precracks", "state"};
 
+    bool has_any(const std::vector<std::string> &names, const std::vector<std::string> &fields)
+    {
+      return std::find_first_of(names.begin(), names.end(), fields.begin(), fields.end()) != names.end();
+    }
+
     bool writes(const Scene &scene, const std::vector<std::string> &fields)
     {
-      const auto names = scene.field_names();
-      return std::find_first_of(names.begin(), names.end(), fields.begin(), fields.end()) != names.end();
+      return has_any(scene.field_names(), fields);
+    }
+
+    /// Lists that name fields which the solver does not have.
+    std::vector<std::string> lists_of_missing_fields(const Scene &scene)
+    {
+      const auto is_missing = [&](const std::vector<std::string> &names) {
+        return (!scene.solver.is_dynamic() && has_any(names, fields_of_motion)) ||
+               (scene.solver.is_linear_static() && has_any(names, fields_of_failure));
+      };
+      if (is_missing(scene.pictures.field_names()))
+        return {"Output/Pictures"};
+      return is_missing(scene.field_names()) ? std::vector<std::string>{"Output/Fields"} :
+                                               std::vector<std::string>();
     }
 
     bool shows_what_is_not_compared(const Scene &scene)
@@ -149,14 +166,11 @@ namespace perideal
   std::vector<Rule> output_rules()
   {
     std::vector<Rule> result = {
-      refuse(
-        "Output/Fields",
+      refuse_each(
+        "Output/Fields, Pictures",
         "velocity with Solver/Name = quasi static | dynamic relaxation; velocity, damage, precracks, state "
         "with Solver/Name = static",
-        [](const Scene &s) {
-          return (!s.solver.is_dynamic() && writes(s, fields_of_motion)) ||
-                 (s.solver.is_linear_static() && writes(s, fields_of_failure));
-        },
+        lists_of_missing_fields,
         "these fields belong to dynamics (velocity), or to dynamics, quasi static and dynamic relaxation "
         "(damage, precracks, state)",
         "other fields with Solver/Name = ...",

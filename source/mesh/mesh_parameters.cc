@@ -13,8 +13,10 @@ namespace perideal
     prm.add_parameter(
       "File",
       file,
-      "Gmsh file: .msh (2.2 or 4.1, ASCII; quadrilaterals or hexahedra), or .geo, which is meshed "
-      "by the program gmsh; relative paths start from the working directory, then from the scene's. "
+      "Mesh of quadrilaterals or hexahedra: of Gmsh (.msh), of Abaqus (.inp; CPS4, CPE4, C3D8 and their "
+      "variants, with the names of sets and surfaces), .unv or .vtk, which the program gmsh converts like a "
+      ".msh other than ASCII 2.2 and 4.1; or a .geo, which it meshes; relative paths start from the working "
+      "directory, then from the scene's. "
       "Empty: take the Generator",
       Anything());
     prm.add_parameter(

@@ -85,20 +85,30 @@ namespace perideal
                         std::strtod(a.c_str(), nullptr) == std::strtod(b.c_str(), nullptr));
     }
 
-    void list_changed(const Declarations &section, const std::string &above, std::vector<std::string> &result)
+    void list_changed(const Declarations                               &section,
+                      const std::string                                &above,
+                      std::vector<std::pair<std::string, std::string>> &result)
     {
       for (const auto &[name, entry] : section)
         if (!is_parameter(entry))
           list_changed(entry, above + name + "/", result);
         else if (!are_equal(entry.get<std::string>("value"), entry.get<std::string>("default_value")))
-          result.push_back(above + name);
+          result.emplace_back(above + name, entry.get<std::string>("default_value"));
     }
   } // namespace
+
+  std::vector<std::pair<std::string, std::string>> changed_defaults(const dealii::ParameterHandler &prm)
+  {
+    std::vector<std::pair<std::string, std::string>> result;
+    list_changed(declarations(prm, true), "", result);
+    return result;
+  }
 
   std::vector<std::string> changed_parameters(const dealii::ParameterHandler &prm)
   {
     std::vector<std::string> result;
-    list_changed(declarations(prm), "", result);
+    for (const auto &changed : changed_defaults(prm))
+      result.push_back(changed.first);
     return result;
   }
 } // namespace perideal

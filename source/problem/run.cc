@@ -18,5 +18,6 @@ namespace perideal
   void Run::warn(const std::string &text)
   {
     screen << "warning     " << text << std::endl;
+    warnings.push_back(text);
   }
 } // namespace perideal

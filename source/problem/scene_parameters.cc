@@ -144,11 +144,16 @@ namespace perideal
                       "by: their concentration; 0: none",
                       Double(0));
     prm.leave_subsection();
+    pictures.declare(prm);
   }
 
   std::vector<std::string> SceneParameters::field_names() const
   {
-    return dealii::Utilities::split_string_list(fields, ',');
+    std::vector<std::string> names = dealii::Utilities::split_string_list(fields, ',');
+    for (const std::string &name : pictures.field_names())
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+    return names;
   }
 
   bool can_break(const SceneParameters &parameters)

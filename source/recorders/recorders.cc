@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/base/versions.h>
 #include <perideal/output/files.h>
+#include <perideal/output/pictures.h>
 #include <perideal/output/summary.h>
 #include <perideal/problem/description.h>
 #include <perideal/problem/output_fields.h>
@@ -123,10 +124,12 @@ namespace perideal
         recorder->finish(result);
       write_together(run.communicator, [&] { history->finish(); });
     }
-    Json summary          = {{"status", name[static_cast<unsigned int>(report.status)]},
-                             {"command", run.context.command}};
-    summary["versions"]   = versions();
-    summary["parameters"] = run.context.parameters;
+    Json summary            = {{"status", name[static_cast<unsigned int>(report.status)]},
+                               {"command", run.context.command}};
+    summary["versions"]     = versions();
+    summary["parameters"]   = run.context.parameters;
+    summary["changed_from"] = run.context.changed_from;
+    summary["warnings"]     = run.warnings;
     summary.update(describe_discretisation(problem));
     summary.update(result);
     summary["skipped"] = list_skipped(problem);
@@ -147,6 +150,11 @@ namespace perideal
     run.screen << '\n'
                << timing_table(seconds) << "\nresults in " << problem.parameters.output_directory
                << std::endl;
+    if (problem.parameters.pictures.are_wanted() && run.screen.is_active())
+      run.screen
+        << "pictures    "
+        << draw_pictures(problem.parameters.output_directory, problem.parameters.pictures).in_one_line()
+        << std::endl;
   }
 
   template <int dim>

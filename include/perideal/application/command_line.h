@@ -14,6 +14,9 @@ namespace perideal
     {
       run,
       check,
+      plot,
+      sweep,
+      compare,
       print_parameters,
       print_rules,
       help,
@@ -23,6 +26,10 @@ namespace perideal
     std::string scene_file;
     /// Texts of --set.
     std::vector<std::string> overrides;
+    /// Texts of --sweep.
+    std::vector<std::string> sweeps;
+    /// Output directories of runs that have ended: of --plot or --compare.
+    std::vector<std::string> directories;
     /// Format of --parameters.
     std::string format = "text";
     /// The whole command, for summary.json.

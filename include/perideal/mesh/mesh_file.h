@@ -19,8 +19,10 @@ namespace perideal
 
   /**
    * Finds a mesh file (from the working directory, then from
-   * @p scene_directory), meshes it if it is a `.geo`, and reads it. The first
-   * rank does so, the others receive the text. Collective.
+   * @p scene_directory), meshes it if it is a `.geo`, converts it if it is an
+   * input file for Abaqus (`.inp`), `.unv`, `.vtk` or a `.msh` in a format
+   * other than ASCII 2.2 and 4.1, and reads it. The first rank does so, the
+   * others receive the text. Collective.
    *
    * @param dim dimension in which a `.geo` is meshed
    * @param gmsh_time_limit how long that may take [s]
@@ -38,6 +40,11 @@ namespace perideal
   /// @throws InputError with gmsh's first error where it is missing, fails or takes too long.
   /// @throws Stopped where this process got SIGINT or SIGTERM; gmsh is ended first.
   std::string run_gmsh(const std::string &geo_file, const int dim, const double time_limit);
+
+  /// Lets the program gmsh read a mesh in one of its other formats and returns it as `.msh` text, with the
+  /// names of its groups as far as the format has any.
+  /// @throws as run_gmsh()
+  std::string convert_with_gmsh(const std::string &mesh_file, const double time_limit);
 } // namespace perideal
 
 #endif

@@ -14,7 +14,7 @@ namespace perideal
   /// Section "Mesh".
   struct MeshParameters
   {
-    /// A `.msh` (2.2 or 4.1, ASCII) or a `.geo` file; empty: use the generator.
+    /// A mesh, or a `.geo` file that is to be meshed; empty: use the generator.
     std::string file;
     /// Factor on the coordinates of the file.
     double scale = 1.;

@@ -7,6 +7,7 @@
 #include <boost/property_tree/ptree.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace perideal
@@ -32,6 +33,9 @@ namespace perideal
 
   /// Advice for a number such as "70,5e9", nothing for other texts.
   std::string decimal_comma(const std::string &value);
+
+  /// Path and default of the parameters that have another value, in the order of declaration.
+  std::vector<std::pair<std::string, std::string>> changed_defaults(const dealii::ParameterHandler &prm);
 
   /// Paths of the parameters that have another value than their default.
   std::vector<std::string> changed_parameters(const dealii::ParameterHandler &prm);

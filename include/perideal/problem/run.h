@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace perideal
 {
@@ -21,6 +22,8 @@ namespace perideal
     std::string scene_directory;
     /// Every parameter as used, for summary.json.
     nlohmann::ordered_json parameters;
+    /// Defaults of the parameters that have another value, by path.
+    nlohmann::ordered_json changed_from;
   };
 
   /// The surroundings of a run: what was asked for, its ranks, its screen and its clock.
@@ -28,7 +31,7 @@ namespace perideal
   {
     Run(const RunContext &context, MPI_Comm communicator);
 
-    /// Prints a line that begins with "warning".
+    /// Prints a line that begins with "warning", and keeps it for summary.json.
     void warn(const std::string &text);
 
     const RunContext context;
@@ -36,6 +39,7 @@ namespace perideal
     /// Standard output of the first rank.
     dealii::ConditionalOStream screen;
     Timings                    timings;
+    std::vector<std::string>   warnings;
   };
 } // namespace perideal
 

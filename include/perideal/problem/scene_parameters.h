@@ -9,6 +9,7 @@
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/force/contact_force.h>
+#include <perideal/output/pictures.h>
 #include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/load_parameters.h>
@@ -124,12 +125,13 @@ namespace perideal
     ComparisonParameters comparison;
     ArealForceParameters areal_forces;
     GaugeParameters      gauges;
+    PictureParameters    pictures;
     /// What the table of rules warns of, one line each.
     std::vector<std::string> warnings;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
-    /// Fields to write, in the order given.
+    /// Fields to write: those of Output/Fields in the order given, then those of Output/Pictures.
     std::vector<std::string> field_names() const;
   };
 

@@ -38,7 +38,8 @@ TEST(MeshFile, IsFoundBesideTheScene)
   parameters.file = "sqaure.msh";
   expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, directory.path()); },
                      {"Mesh/File", "no such mesh file", directory.path(), "did you mean: square.msh"});
-  expect_input_error([&] { read<2>(directory.write("mesh.vtk", "text")); }, {"Mesh/File", ".msh | .geo"});
+  expect_input_error([&] { read<2>(directory.write("mesh.stl", "text")); },
+                     {"Mesh/File", ".msh | .geo | .inp", "meshio convert mesh.stl"});
 }
 
 TEST(MeshFile, GeometryIsMeshedByGmsh)
