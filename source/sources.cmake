@@ -66,6 +66,7 @@ set(perideal_sources
   nodes/boundary_nodes.cc
   nodes/cell_graph.cc
   nodes/cell_keys.cc
+  nodes/mesh_points.cc
   nodes/curve_order.cc
   nodes/nodes.cc
 
@@ -103,6 +104,7 @@ set(perideal_sources
 
   reconstruction/elastic_fit.cc
   reconstruction/cell_polynomials.cc
+  reconstruction/corner_fit.cc
   reconstruction/face_gradient.cc
   reconstruction/face_moments.cc
   reconstruction/family_fit.cc
@@ -117,12 +119,14 @@ set(perideal_sources
   output/checkpoint_file.cc
   output/errors.cc
   output/field_output.cc
+  output/field_sink.cc
   output/files.cc
   output/history.cc
   output/lasting_state.cc
   output/profiles.cc
   output/progress.cc
   output/summary.cc
+  output/vtu_text.cc
 
   materials/bond_based.cc
   materials/boundary_compensation.cc
@@ -275,6 +279,7 @@ set(perideal_sources
   problem/problem.cc
   problem/run.cc
   problem/scene_parameters.cc
+  problem/vertex_displacement.cc
 
   recorders/areal_forces.cc
   recorders/boundary_stress.cc

@@ -128,7 +128,14 @@ namespace perideal
       fields,
       "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()) +
         ". family status adds up 1: fallback weights, 2: a moment condition missed, 4: negative "
-        "deviatoric weights met");
+        "deviatoric weights met. displacement is at the points of the mesh, two at each vertex that a crack "
+        "runs "
+        "through, all others of cells");
+    prm.add_parameter(
+      "Format",
+      format,
+      "vtu: one file with the cells of all ranks; pvtu: a file for the cells of each rank and one "
+      "that lists them, for meshes that are large for one process");
     prm.add_parameter(
       "Boundary stress",
       boundary_stress,

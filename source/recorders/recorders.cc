@@ -5,6 +5,7 @@
 #include <perideal/output/summary.h>
 #include <perideal/problem/description.h>
 #include <perideal/problem/output_fields.h>
+#include <perideal/problem/vertex_displacement.h>
 #include <perideal/recorders/recorders.h>
 #include <perideal/recorders/report.h>
 
@@ -40,8 +41,10 @@ namespace perideal
       problem.run.warn(history->warning());
     fields = std::make_unique<FieldOutput<dim>>(*problem.body.mesh,
                                                 *problem.body.nodes,
+                                                make_mesh_points(problem),
                                                 parameters.output_directory,
-                                                is_series ? OutputSteps::series : OutputSteps::single);
+                                                is_series ? OutputSteps::series : OutputSteps::single,
+                                                parameters.format);
     for (auto &recorder : recorders)
       recorder->start(result);
     register_state(problem.lasting);
@@ -91,7 +94,7 @@ namespace perideal
     if (!is_new || state.displacement.size() != problem.body.nodes->size())
       return;
     const SceneParameters &parameters = problem.parameters;
-    fields->add_vector("displacement", state.displacement);
+    add_output_fields(problem, {"displacement"}, *fields);
     // Load steps end at 1: what failed stands behind them.
     fields->write((kind.has_motion ? parameters.frames : parameters.solver.load_steps) + 1,
                   kind.has_motion ? last_time : 2.);

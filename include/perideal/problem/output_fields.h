@@ -2,7 +2,7 @@
 #ifndef perideal_problem_output_fields_h
 #define perideal_problem_output_fields_h
 
-#include <perideal/output/field_output.h>
+#include <perideal/output/field_sink.h>
 
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ namespace perideal
   template <int dim>
   void add_output_fields(const Problem<dim>             &problem,
                          const std::vector<std::string> &names,
-                         FieldOutput<dim>               &output);
+                         FieldSink<dim>                 &output);
 } // namespace perideal
 
 #endif

@@ -9,6 +9,7 @@
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/force/contact_force.h>
+#include <perideal/output/output_format.h>
 #include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/load_parameters.h>
@@ -102,6 +103,8 @@ namespace perideal
     int         dimension        = 2;
     std::string output_directory = "output";
     std::string fields           = "displacement";
+    /// Of the files of these fields.
+    OutputFormat format = OutputFormat::vtu;
     /// Boundaries whose stresses are written.
     std::vector<std::string> boundary_stress;
     /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
