@@ -34,6 +34,7 @@ set(perideal_sources
   parameters/neo_hookean.cc
   parameters/parameter_file.cc
   parameters/point_text.cc
+  parameters/probe_parameters.cc
   parameters/saint_venant_kirchhoff.cc
   parameters/softening.cc
   parameters/space_time_function.cc
@@ -295,6 +296,8 @@ set(perideal_sources
   recorders/iterations.cc
   recorders/load_resultants.cc
   recorders/make_recorders.cc
+  recorders/point_values.cc
+  recorders/probes.cc
   recorders/reactions.cc
   recorders/recorders.cc
   recorders/report.cc

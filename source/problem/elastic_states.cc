@@ -73,7 +73,7 @@ namespace perideal
   bool has_elastic_states(const Problem<dim> &problem)
   {
     return problem.discretisation.gradients || force_by_law(problem) != nullptr ||
-           needs_strain(problem.parameters.field_names());
+           needs_strain(problem.parameters.all_field_names());
   }
 
   template <int dim>

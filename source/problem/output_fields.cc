@@ -226,6 +226,11 @@ namespace perideal
     return fields<2>().names();
   }
 
+  std::string output_field_unit(const std::string &name)
+  {
+    return fields<2>().get(name).unit;
+  }
+
   bool needs_strain(const std::vector<std::string> &names)
   {
     return std::any_of(names.begin(), names.end(), [](const std::string &name) {

@@ -122,6 +122,7 @@ namespace perideal
     comparison.declare(prm, file);
     areal_forces.declare(prm, file);
     gauges.declare(prm, file);
+    probes.declare(prm, file);
     prm.enter_subsection("Output");
     prm.add_parameter(
       "Fields",
@@ -156,6 +157,15 @@ namespace perideal
   std::vector<std::string> SceneParameters::field_names() const
   {
     return dealii::Utilities::split_string_list(fields, ',');
+  }
+
+  std::vector<std::string> SceneParameters::all_field_names() const
+  {
+    std::vector<std::string> result = field_names();
+    for (const ProbeText &probe : probes.probes)
+      for (const std::string &name : probe.field_names())
+        result.push_back(name);
+    return result;
   }
 
   bool can_break(const SceneParameters &parameters)

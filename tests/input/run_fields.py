@@ -72,7 +72,7 @@ FOREIGN = ("terminate called", "Stacktrace", "An error occurred", "HDF5-DIAG", "
 
 def field_names(program):
     text = run(program, "--parameters", "markdown")[1]
-    line = next(line for line in text.splitlines() if line.startswith("| `Fields`"))
+    line = next(line for line in text.splitlines() if line.startswith("| `Fields`") and "solution.vtu" in line)
     listed = line.split("separated by commas: ")[1].split(". ")[0]
     return [name.strip() for name in listed.split("\\|")]
 

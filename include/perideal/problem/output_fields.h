@@ -15,6 +15,9 @@ namespace perideal
   /// Names that Output/Fields accepts.
   std::vector<std::string> output_field_names();
 
+  /// Unit of a field's values, without brackets; empty: each of them has its own.
+  std::string output_field_unit(const std::string &name);
+
   /// Whether one of the fields is made from the strain of the nodes.
   bool needs_strain(const std::vector<std::string> &names);
 

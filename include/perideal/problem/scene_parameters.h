@@ -15,6 +15,7 @@
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/probe_parameters.h>
 #include <perideal/quadrature/bond_volume.h>
 #include <perideal/solvers/linear_solver.h>
 
@@ -127,6 +128,7 @@ namespace perideal
     ComparisonParameters comparison;
     ArealForceParameters areal_forces;
     GaugeParameters      gauges;
+    ProbeParameters      probes;
     /// What the table of rules warns of, one line each.
     std::vector<std::string> warnings;
 
@@ -134,6 +136,9 @@ namespace perideal
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;
+
+    /// Those, and the fields of probes.
+    std::vector<std::string> all_field_names() const;
   };
 
   /// Returns whether bonds of the scene may break.

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Checks what is recorded at points, along lines and by load step, and that finished load steps go on.
+
+    run_records.py --program build/perideal [--mpirun "mpirun ..."]
+"""
+
+import argparse
+import csv
+import json
+import re
+import shlex
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from execute import execute
+from run_points import CONSISTENT, POISSON, SCENE, STRESS, TORN, YOUNG, Failure, expect
+from vtu import read_vtu
+
+PROBES = {"Probes/tip/Point": "0.73, 0.31", "Probes/tip/Fields": "displacement, stress, strain, von mises",
+          "Probes/corner/Point": "1.2, 0.8"}
+LINE = {"Comparison/middle/From": "0, 0.4", "Comparison/middle/To": "1.2, 0.4", "Comparison/middle/Points": "7",
+        "Comparison/FEM": "true"}
+
+
+class Folder:
+    """Runs in one folder, which keeps their results."""
+
+    def __init__(self, program, mpirun, path):
+        self.program, self.mpirun, self.path = program, mpirun, path
+
+    def run(self, scene, settings, ranks=1, status=0, name="output"):
+        (self.path / "case.prm").write_text(scene, encoding="utf-8")
+        command = (self.mpirun + ["-n", str(ranks)] if ranks > 1 else []) + [self.program, "case.prm"]
+        for path, value in {"Output directory": name, **settings}.items():
+            command += ["--set", f"{path}={value}"]
+        ended, out, err = execute(command, self.path)
+        expect(ended == status, f"{settings}: exit status {ended}, not {status}\n{out}{err}")
+        return out + err
+
+    def table(self, file, name="output"):
+        """{column: [value]} of a .csv file."""
+        with open(self.path / name / file, encoding="utf-8", newline="") as text:
+            header, *rows = csv.reader(text)
+        return {title: [float(row[k]) for row in rows] for k, title in enumerate(header)}
+
+    def bytes(self, file, name="output"):
+        return (self.path / name / file).read_bytes()
+
+
+def expect_close(found, expected, scale, tolerance, case):
+    expect(len(found) == len(expected), f"{case}: {len(found)} values, not {len(expected)}")
+    for a, b in zip(found, expected):
+        expect(abs(a - b) <= tolerance * scale, f"{case}: {found}, not {expected}")
+
+
+def check_probes(folder):
+    """Uniform tension, at points between the nodes: exact but for the tolerance of the solver."""
+    strain = STRESS / YOUNG
+    for ranks in (1, 2):
+        # t_x grows to 7e6 in two load steps.
+        folder.run(SCENE.replace("t_x = 7e6", "t_x = 7e6*t"), PROBES | CONSISTENT | {"Solver/Load steps": "2"}, ranks)
+        history = folder.table("history.csv")
+        largest = 1.2 * strain
+        for column, value, scale in (("displacement_x at tip [m]", 0.73 * strain, largest),
+                                     ("displacement_y at tip [m]", -POISSON * 0.31 * strain, largest),
+                                     ("displacement_x at corner [m]", 1.2 * strain, largest),
+                                     ("stress_xx at tip [Pa]", STRESS, STRESS), ("stress_xy at tip [Pa]", 0, STRESS),
+                                     ("strain_yy at tip [-]", -POISSON * strain, strain),
+                                     ("von_mises_stress at tip [Pa]", STRESS, STRESS)):
+            expect_close(history[column], [0.5 * value, value], scale, 1e-6, f"{ranks} ranks: {column}")
+        summary = json.loads(folder.bytes("summary.json"))
+        expect(summary["probes"]["tip"]["stress_xx"] == history["stress_xx at tip [Pa]"], "probes of the summary")
+
+
+def check_probes_in_motion(folder):
+    """A body that moves as a whole: its velocity at a point, and the displacement that it makes."""
+    motion = {"Material/Density": "2700", "Solver/Name": "dynamics", "Solver/End time": "2e-5", "Output/History steps": "1",
+              "Probes/tip/Point": "0.73, 0.31", "Probes/tip/Fields": "displacement, velocity", "Initial conditions/v_y": "3"}
+    free = re.sub(r"(?s)subsection Boundary conditions.*", "", SCENE)
+    for form in ("consistent", "energy"):
+        folder.run(free, motion | {"Material/Form": form})
+        history = folder.table("history.csv")
+        expect(len(history["time [s]"]) > 2, "rows of the history")
+        for time, u, v in zip(history["time [s]"], history["displacement_y at tip [m]"], history["velocity_y at tip [m/s]"]):
+            expect(abs(v - 3) < 1e-9 and abs(u - 3 * time) < 1e-12, f"{form}: {u}, {v} at t = {time}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="checks what is recorded at points, along lines and by load step")
+    parser.add_argument("--program", required=True, type=Path)
+    parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
+    arguments = parser.parse_args()
+    failed = 0
+    for check in (check_probes, check_probes_in_motion):
+        with tempfile.TemporaryDirectory(prefix="perideal-records-") as name:
+            try:
+                check(Folder(str(arguments.program.resolve()), shlex.split(arguments.mpirun), Path(name)))
+            except Failure as failure:
+                failed += 1
+                print(f"FAILED: {check.__name__}: {failure}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
