@@ -294,6 +294,7 @@ set(perideal_sources
   recorders/finite_elements.cc
   recorders/gauges.cc
   recorders/iterations.cc
+  recorders/line_values.cc
   recorders/load_resultants.cc
   recorders/make_recorders.cc
   recorders/point_values.cc

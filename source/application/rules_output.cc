@@ -24,7 +24,7 @@ namespace perideal
     bool shows_what_is_not_compared(const Scene &scene)
     {
       const ComparisonParameters &comparison = scene.comparison;
-      return (writes(scene, {"fem"}) && !comparison.fem) ||
+      return (writes(scene, {"fem", "fem stress", "stress error"}) && !comparison.fem) ||
              (writes(scene, {"reference"}) && !comparison.reference) ||
              (writes(scene, {"exact"}) && !comparison.has_exact()) ||
              (writes(scene, {"error"}) && !comparison.fem && !comparison.reference &&
@@ -201,11 +201,14 @@ namespace perideal
         "(damage, precracks, state)",
         "other fields with Solver/Name = ...",
         "remove them, or set Solver/Name = dynamics"),
-      warn("Output/Fields",
-           "fem, reference, exact or error without Comparison/FEM, Reference or Exact u_x, ...",
-           shows_what_is_not_compared,
-           "a field shows a comparison that is not asked for and is left out: set Comparison/FEM (fem), "
-           "Reference (reference), Exact u_x, ... (exact), or any of them (error)"),
+      warn(
+        "Output/Fields",
+        "fem, fem stress, stress error, reference, exact or error without Comparison/FEM, Reference or Exact "
+        "u_x, ...",
+        shows_what_is_not_compared,
+        "a field shows a comparison that is not asked for and is left out: set Comparison/FEM (fem, fem "
+        "stress, stress error), "
+        "Reference (reference), Exact u_x, ... (exact), or any of them (error)"),
       refuse(
         "Output/Boundary stress",
         "Solver/Name = dynamics",

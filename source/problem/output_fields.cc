@@ -99,6 +99,29 @@ namespace perideal
       output.add_scalar(name, values);
     }
 
+    template <int dim>
+    void add_fem_stress(const Problem<dim> &problem, FieldSink<dim> &output)
+    {
+      if (!problem.state.fem || !problem.state.fem->states)
+        return;
+      std::vector<dealii::SymmetricTensor<2, 3>> values;
+      for (const ElasticState &state : *problem.state.fem->states)
+        values.push_back(state.stress);
+      output.add_tensor("fem_stress", values);
+    }
+
+    /// What the stress of the bonds is off from that of the finite elements.
+    template <int dim>
+    void add_stress_error(const Problem<dim> &problem, FieldSink<dim> &output)
+    {
+      if (!problem.state.fem || !problem.state.fem->states)
+        return;
+      std::vector<dealii::SymmetricTensor<2, 3>> values;
+      for (const ElasticState &state : elastic_states(problem))
+        values.push_back(state.stress - (*problem.state.fem->states)[values.size()].stress);
+      output.add_tensor("stress_error", values);
+    }
+
     /// Whatever lasts from step to step and may be shown, number by number.
     template <int dim>
     void add_lasting_state(const Problem<dim> &problem, FieldSink<dim> &output)
@@ -193,6 +216,8 @@ namespace perideal
              add_state_scalar(s, "strain_energy_density", std::mem_fn(&ElasticState::energy_density), o);
            },
            Source::strain}},
+         {"fem stress", {"Pa", [](Scene s, Output o) { add_fem_stress(s, o); }}},
+         {"stress error", {"Pa", [](Scene s, Output o) { add_stress_error(s, o); }, Source::strain}},
          {"state", {"", [](Scene s, Output o) { add_lasting_state(s, o); }}},
          {"volume", {"m^3", [](Scene s, Output o) { o.add_scalar("volume", s.body.nodes->volume); }}},
          {"horizon", {"m", [](Scene s, Output o) { o.add_scalar("horizon", s.body.nodes->horizon); }}},

@@ -59,10 +59,18 @@ namespace perideal
       {
         prm.enter_subsection(line.name);
         prm.add_parameter("From", line.from, "Where a line through the body begins: coordinates [m]");
-        prm.add_parameter("To",
-                          line.to,
-                          "Where it ends: coordinates [m]. Along it displacements are written to "
-                          "profile_NAME.csv and compared");
+        prm.add_parameter(
+          "To",
+          line.to,
+          "Where it ends: coordinates [m]. Along it displacements are written to "
+          "profile_NAME.csv and compared, by node; and displacement, strain and stress, those of "
+          "the finite elements beside them, to line_NAME.csv, interpolated");
+        prm.add_parameter(
+          "Points",
+          line.points,
+          "Points of line_NAME.csv, evenly from one end to the other; those outside the body are "
+          "left out",
+          Integer(2));
         prm.leave_subsection();
       }
     prm.leave_subsection();

@@ -89,13 +89,39 @@ def check_probes_in_motion(folder):
             expect(abs(v - 3) < 1e-9 and abs(u - 3 * time) < 1e-12, f"{form}: {u}, {v} at t = {time}")
 
 
+def check_line(folder):
+    """Displacement, strain and stress along a line, and the finite elements' beside them."""
+    strain = STRESS / YOUNG
+    for ranks in (1, 2):
+        folder.run(SCENE, LINE | CONSISTENT | {"Output/Fields": "displacement, fem stress, stress error"}, ranks)
+        line = folder.table("line_middle.csv")
+        places = [0.2 * k for k in range(7)]
+        expect_close(line["s [m]"], places, 1.2, 1e-12, "places")
+        # The mid-height moves down by half of what the width shrinks by.
+        for start in ("", "fem_"):
+            expect_close(line[start + "displacement_x [m]"], [strain * x for x in places], 1.2 * strain, 1e-6, start + "u_x")
+            expect_close(line[start + "displacement_y [m]"], [-POISSON * strain * 0.4] * 7, 1.2 * strain, 1e-6, start + "u_y")
+            expect_close(line[start + "strain_xx [-]"], [strain] * 7, strain, 1e-6, start + "strain")
+            expect_close(line[start + "stress_xx [Pa]"], [STRESS] * 7, STRESS, 1e-6, start + "stress")
+        cells = read_vtu(folder.path / "output" / "solution.vtu")["cell"]
+        expect_close(cells["fem_stress_xx"], [STRESS] * 96, STRESS, 1e-6, "fem stress")
+        expect_close(cells["stress_error_xx"], [0] * 96, STRESS, 1e-6, "stress error")
+    # A hole of radius 0.3 in a quarter of a plate: what is inside of it is left out.
+    folder.run(SCENE, {"Mesh/Generator": "plate with hole", "Mesh/Cells": "10, 10", "Mesh/Size": "1, 1",
+                       "Mesh/Hole radius": "0.3", "Comparison/across/From": "0, 0", "Comparison/across/To": "1, 1",
+                       "Comparison/across/Points": "101"})
+    line = folder.table("line_across.csv")
+    expect(0.25 < min(line["s [m]"]) < 0.31, f"the line begins at {min(line['s [m]'])}")
+    expect(abs(max(line["s [m]"]) - 2**0.5) < 1e-12, f"the line ends at {max(line['s [m]'])}")
+
+
 def main():
     parser = argparse.ArgumentParser(description="checks what is recorded at points, along lines and by load step")
     parser.add_argument("--program", required=True, type=Path)
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     arguments = parser.parse_args()
     failed = 0
-    for check in (check_probes, check_probes_in_motion):
+    for check in (check_probes, check_probes_in_motion, check_line):
         with tempfile.TemporaryDirectory(prefix="perideal-records-") as name:
             try:
                 check(Folder(str(arguments.program.resolve()), shlex.split(arguments.mpirun), Path(name)))

@@ -35,6 +35,8 @@ namespace perideal
     std::string name;
     /// Its ends, coordinates [m] separated by commas.
     std::string from, to;
+    /// Points along it, the ends among them, at which values are interpolated.
+    unsigned int points = 101;
   };
 
   /// Of what the finite elements are made that solutions are held against.
