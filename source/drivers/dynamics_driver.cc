@@ -193,6 +193,8 @@ namespace perideal
         StepLine     progress(screen.get_stream(), screen.is_active(), steps.number);
         for (std::uint64_t n = dynamics->step(); n <= steps.number; ++n)
           {
+            if (n == steps.number && n > 0 && problem.parameters.checkpoints.at_end)
+              save();
             {
               const Timings::Scope scope(problem.run.timings, "solve");
               if ((loads_change || problem.force->version() != version) && n > 0)

@@ -20,10 +20,7 @@ namespace perideal
   {
     RunKind kind_of(const SolverParameters &solver)
     {
-      RunKind kind;
-      kind.has_iterations        = true;
-      kind.has_linear_iterations = solver.is_quasi_static();
-      return kind;
+      return {false, true, solver.is_quasi_static()};
     }
 
     /// Equilibria of the nonlinear force along load steps, with failure, by Newton's method or dynamic
@@ -82,7 +79,7 @@ namespace perideal
       {
         const std::string steps = solver.is_controlled() ?
                                     ", control by " + name_of(solver.control) :
-                                    " in " + std::to_string(solver.load_steps) + " load step(s)";
+                                    " in " + std::to_string(solver.n_load_steps()) + " load step(s)";
         if (!solver.is_quasi_static())
           return "solver      dynamic relaxation" + steps + '\n';
         return "solver      quasi static, Newton's method" + steps +
@@ -178,17 +175,22 @@ namespace perideal
           {
             take_load_step(done + 1);
             ++done;
-            const bool stops = stop.is_there(problem.run.communicator);
-            if (!is_done() && (stops || (interval > 0 && done % interval == 0)))
-              this->save_checkpoint(
-                done, control ? controlled->time() : static_cast<double>(done) / solver.load_steps);
+            const bool stops  = stop.is_there(problem.run.communicator);
+            const bool is_due = stops || (interval > 0 && done % interval == 0);
+            if (is_done() ? problem.parameters.checkpoints.at_end && !control : is_due)
+              this->save_checkpoint(done, control ? controlled->time() : time_of(done));
             if (stops)
               break;
           }
         return is_done();
       }
 
-      bool is_done() const { return control ? control->is_done() : done == solver.load_steps; }
+      double time_of(const std::uint64_t number) const
+      {
+        return static_cast<double>(number) / solver.load_steps;
+      }
+
+      bool is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
 
       void take_load_step(const unsigned int number)
       {
@@ -212,10 +214,10 @@ namespace perideal
       /// Goes to the end of a load step, after a failure in halves. Returns the time reached or sought last.
       double search(Step<dim> &step)
       {
-        const double end  = static_cast<double>(step.number) / solver.load_steps;
-        double       time = static_cast<double>(step.number - 1) / solver.load_steps, part = end - time;
+        const double end  = time_of(step.number);
+        double       time = time_of(step.number - 1), part = end - time;
         step.time    = end;
-        step.is_last = step.number == solver.load_steps;
+        step.is_last = step.number == solver.n_load_steps();
         while (time < end)
           {
             const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;

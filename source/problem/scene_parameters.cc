@@ -99,10 +99,16 @@ namespace perideal
                       "asked to stop (SIGTERM, SIGINT), which it does after the step",
                       Integer(0));
     prm.add_parameter(
+      "At end",
+      at_end,
+      "Leave a checkpoint at the end too, from which a run with a later Solver/End time or Last "
+      "load step goes on",
+      Bool());
+    prm.add_parameter(
       "Restart",
       restart,
       "Continue from the last checkpoint in Output directory; any number of ranks may do so, and "
-      "Solver/End time and the section Output may change",
+      "Solver/End time, Solver/Last load step and the section Output may change",
       Bool());
     prm.leave_subsection();
   }
@@ -151,6 +157,12 @@ namespace perideal
       "Boundaries (physical names or ids) whose stresses, recovered at each face, are written to "
       "stress_NAME.csv, with the extremes in summary.json",
       List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter(
+      "Frame steps",
+      frame_steps,
+      "Load steps that leave field files: one number n, every n-th; several, separated by commas, "
+      "these; empty: all. The last load step leaves one in any case",
+      List(Integer(1), 0, List::max_int_value, ","));
     prm.add_parameter("Frames", frames, "Field files that dynamics leave, at equal times", Integer(1));
     prm.add_parameter(
       "History steps", history_steps, "Steps between two rows of the history of dynamics", Integer(1));
@@ -165,6 +177,14 @@ namespace perideal
   std::vector<std::string> SceneParameters::field_names() const
   {
     return dealii::Utilities::split_string_list(fields, ',');
+  }
+
+  bool SceneParameters::has_frame(const std::uint64_t step) const
+  {
+    if (frame_steps.size() == 1)
+      return step % frame_steps[0] == 0;
+    return frame_steps.empty() ||
+           std::find(frame_steps.begin(), frame_steps.end(), step) != frame_steps.end();
   }
 
   std::vector<std::string> SceneParameters::all_field_names() const

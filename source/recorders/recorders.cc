@@ -31,7 +31,7 @@ namespace perideal
   void Recorders<dim>::open(const double last_row, const Checkpoint *resumed)
   {
     const SceneParameters       &parameters = problem.parameters;
-    const bool                   is_series  = kind.has_motion || parameters.solver.load_steps > 1;
+    const bool                   is_series  = kind.has_motion || parameters.solver.n_load_steps() > 1;
     std::optional<std::uint32_t> checksum;
     if (resumed != nullptr)
       checksum = resumed->get<std::uint32_t>("history");
@@ -71,6 +71,8 @@ namespace perideal
   template <int dim>
   void Recorders<dim>::write_fields(const Step<dim> &step)
   {
+    if (!kind.has_motion && !step.is_last && !problem.parameters.has_frame(step.number))
+      return;
     const Timings::Scope scope(problem.run.timings, "output");
     for (auto &recorder : recorders)
       recorder->prepare_fields(step);
@@ -95,9 +97,11 @@ namespace perideal
       return;
     const SceneParameters &parameters = problem.parameters;
     add_output_fields(problem, {"displacement"}, *fields);
-    // Load steps end at 1: what failed stands behind them.
-    fields->write((kind.has_motion ? parameters.frames : parameters.solver.load_steps) + 1,
-                  kind.has_motion ? last_time : 2.);
+    // What failed stands behind all load steps.
+    const unsigned int n_steps = parameters.solver.n_load_steps();
+    fields->write((kind.has_motion ? parameters.frames : n_steps) + 1,
+                  kind.has_motion ? last_time :
+                                    1. + static_cast<double>(n_steps) / parameters.solver.load_steps);
   }
 
   namespace

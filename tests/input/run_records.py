@@ -115,13 +115,55 @@ def check_line(folder):
     expect(abs(max(line["s [m]"]) - 2**0.5) < 1e-12, f"the line ends at {max(line['s [m]'])}")
 
 
+def check_frames(folder):
+    """Load steps that leave field files."""
+    elastic = {"Boundary conditions/pull/u_x": "1e-5*t", "Output/Fields": "displacement"}
+    for text, steps in (("", range(1, 9)), ("3", (3, 6, 8)), ("1, 4", (1, 4, 8)), ("8", (8,))):
+        name = f"frames {text}"
+        folder.run(TORN, elastic | ({"Output/Frame steps": text} if text else {}), name=name)
+        times = re.findall(r'timestep="([^"]*)"', folder.bytes("solution.pvd", name).decode())
+        expect([float(time) for time in times] == [step / 8 for step in steps], f"frames {text!r}: times {times}")
+        files = sorted(path.name for path in (folder.path / name).glob("solution_*.vtu"))
+        expect(files == [f"solution_{k + 1:04d}.vtu" for k in range(len(steps))], f"frames {text!r}: {files}")
+
+
+def check_more_steps(folder):
+    """A run that came to its end goes on with more load steps, as if it had been one run."""
+    at_end = {"Checkpoints/At end": "true"}
+    for solver, limit in (("quasi static", "1e-9"), ("dynamic relaxation", "1e-6")):
+        settings = {"Solver/Name": solver, "Solver/Tolerance": limit, "Solver/Load steps": "4",
+                    "Boundary conditions/pull/u_x": "6e-4*t"}
+        name = solver.split()[0]
+        folder.run(TORN, settings | {"Solver/Last load step": "6"}, name=f"{name} whole")
+        folder.run(TORN, settings | at_end, name=name)
+        table = folder.table("history.csv", name)
+        expect(table["time [s]"][-1] == 1, f"{name}: ends at {table['time [s]'][-1]}")
+        text = folder.run(TORN, settings | {"Checkpoints/Restart": "true"}, status=1, name=name)
+        expect("Solver/Last load step" in text and "more than 4" in text, f"{name}: nothing is left to do\n{text}")
+        folder.run(TORN, settings | {"Checkpoints/Restart": "true", "Solver/Last load step": "6"}, name=name)
+        for file in ("history.csv", "solution_0006.vtu"):
+            expect(folder.bytes(file, name) == folder.bytes(file, f"{name} whole"), f"{name}: {file} is another")
+        broken = folder.table("history.csv", name)["broken bonds"]
+        expect(broken[-1] > broken[3], f"{name}: nothing breaks in steps 5 and 6: {broken}")
+
+
+def check_longer_motion(folder):
+    """The same of dynamics, whose End time grows."""
+    motion = {"Solver/Name": "dynamics", "Solver/Time step": "1e-6", "Output/Frames": "2",
+              "Boundary conditions/pull/u_x": "20*t", "Output/History steps": "5"}
+    folder.run(TORN, motion | {"Solver/End time": "4e-5"}, name="moved whole")
+    folder.run(TORN, motion | {"Solver/End time": "2e-5", "Checkpoints/At end": "true"}, name="moved")
+    folder.run(TORN, motion | {"Solver/End time": "4e-5", "Checkpoints/Restart": "true"}, name="moved")
+    expect(folder.bytes("history.csv", "moved") == folder.bytes("history.csv", "moved whole"), "another history")
+
+
 def main():
     parser = argparse.ArgumentParser(description="checks what is recorded at points, along lines and by load step")
     parser.add_argument("--program", required=True, type=Path)
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     arguments = parser.parse_args()
     failed = 0
-    for check in (check_probes, check_probes_in_motion, check_line):
+    for check in (check_probes, check_probes_in_motion, check_line, check_frames, check_more_steps, check_longer_motion):
         with tempfile.TemporaryDirectory(prefix="perideal-records-") as name:
             try:
                 check(Folder(str(arguments.program.resolve()), shlex.split(arguments.mpirun), Path(name)))

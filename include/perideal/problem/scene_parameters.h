@@ -94,6 +94,8 @@ namespace perideal
   {
     /// Steps between two checkpoints; 0: only when the program is asked to stop.
     unsigned int steps = 0;
+    /// Whether there is one at the end, from which a run goes on to a later one.
+    bool at_end = false;
     /// Whether to go on from the last one.
     bool restart = false;
 
@@ -112,6 +114,9 @@ namespace perideal
     std::vector<std::string> boundary_stress;
     /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
     double nominal_stress = 0.;
+    /// Load steps that leave field files: one number, every so many; several, these; none, all. The last one
+    /// does in any case.
+    std::vector<unsigned int> frame_steps;
     /// Field files of dynamics, and steps between rows of their history.
     unsigned int         frames = 10, history_steps = 10;
     MeshParameters       mesh;
@@ -138,6 +143,9 @@ namespace perideal
 
     /// Fields to write, in the order given.
     std::vector<std::string> field_names() const;
+
+    /// Whether a load step leaves a field file.
+    bool has_frame(const std::uint64_t step) const;
 
     /// Those, and the fields of probes.
     std::vector<std::string> all_field_names() const;
