@@ -17,6 +17,7 @@ set(perideal_sources
   base/stop_request.cc
   base/timing.cc
   base/versions.cc
+  base/work_progress.cc
 
   parameters/areal_force_parameters.cc
   parameters/declarations.cc

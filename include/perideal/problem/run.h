@@ -27,6 +27,7 @@ namespace perideal
   struct Run
   {
     Run(const RunContext &context, MPI_Comm communicator);
+    ~Run();
 
     /// Prints a line that begins with "warning".
     void warn(const std::string &text);
@@ -35,7 +36,9 @@ namespace perideal
     MPI_Comm         communicator;
     /// Standard output of the first rank.
     dealii::ConditionalOStream screen;
-    Timings                    timings;
+    /// Whether that is a terminal, for bars that show how far the run has come.
+    const bool is_watched;
+    Timings    timings;
   };
 } // namespace perideal
 
