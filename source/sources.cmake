@@ -19,6 +19,7 @@ set(perideal_sources
   base/stop_request.cc
   base/timing.cc
   base/versions.cc
+  base/work_progress.cc
 
   parameters/areal_force_parameters.cc
   parameters/declarations.cc
@@ -36,6 +37,7 @@ set(perideal_sources
   parameters/neo_hookean.cc
   parameters/parameter_file.cc
   parameters/point_text.cc
+  parameters/probe_parameters.cc
   parameters/saint_venant_kirchhoff.cc
   parameters/softening.cc
   parameters/space_time_function.cc
@@ -71,6 +73,7 @@ set(perideal_sources
   nodes/boundary_nodes.cc
   nodes/cell_graph.cc
   nodes/cell_keys.cc
+  nodes/mesh_points.cc
   nodes/curve_order.cc
   nodes/nodes.cc
 
@@ -108,6 +111,7 @@ set(perideal_sources
 
   reconstruction/elastic_fit.cc
   reconstruction/cell_polynomials.cc
+  reconstruction/corner_fit.cc
   reconstruction/face_gradient.cc
   reconstruction/face_moments.cc
   reconstruction/family_fit.cc
@@ -122,6 +126,7 @@ set(perideal_sources
   output/checkpoint_file.cc
   output/errors.cc
   output/field_output.cc
+  output/field_sink.cc
   output/files.cc
   output/history.cc
   output/lasting_state.cc
@@ -129,6 +134,7 @@ set(perideal_sources
   output/profiles.cc
   output/progress.cc
   output/summary.cc
+  output/vtu_text.cc
 
   materials/bond_based.cc
   materials/boundary_compensation.cc
@@ -281,6 +287,7 @@ set(perideal_sources
   problem/problem.cc
   problem/run.cc
   problem/scene_parameters.cc
+  problem/vertex_displacement.cc
 
   recorders/areal_forces.cc
   recorders/boundary_stress.cc
@@ -294,8 +301,11 @@ set(perideal_sources
   recorders/finite_elements.cc
   recorders/gauges.cc
   recorders/iterations.cc
+  recorders/line_values.cc
   recorders/load_resultants.cc
   recorders/make_recorders.cc
+  recorders/point_values.cc
+  recorders/probes.cc
   recorders/reactions.cc
   recorders/recorders.cc
   recorders/report.cc

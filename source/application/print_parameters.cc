@@ -37,6 +37,7 @@ namespace perideal
                            "subsection Point loads\n subsection ANY NAME\n end\nend\n"
                            "subsection Areal force densities\n subsection ANY NAME\n end\nend\n"
                            "subsection Gauges\n subsection ANY NAME\n end\nend\n"
+                           "subsection Probes\n subsection ANY NAME\n end\nend\n"
                            "subsection Precracks\n subsection ANY NAME\n end\nend\n"
                            "subsection No-fail zones\n subsection ANY NAME\n end\nend\n"
                            "subsection Comparison\n subsection ANY NAME\n end\nend\n"

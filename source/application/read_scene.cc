@@ -3,6 +3,7 @@
 #include <perideal/application/rules.h>
 #include <perideal/base/registry.h>
 #include <perideal/parameters/declarations.h>
+#include <perideal/parameters/point_text.h>
 #include <perideal/problem/output_fields.h>
 
 #include <deal.II/base/utilities.h>
@@ -116,24 +117,24 @@ namespace perideal
       read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", mistakes);
       for (const auto &text : scene.gauges.gauges)
         mistakes.collect([&] { read_gauges<dim>(only(&GaugeParameters::gauges, text)); });
+      for (const auto &probe : scene.probes.probes)
+        mistakes.collect([&] { read_point<dim>(probe.point, "Probes/" + probe.name + "/Point"); });
       for (const auto &text : scene.areal_forces.points)
         mistakes.collect([&] { read_areal_force_points<dim>(only(&ArealForceParameters::points, text)); });
     }
 
-    void check_fields(const SceneParameters &scene, InputErrorCollector &mistakes)
+    void check_fields(const std::vector<std::string> &fields,
+                      const std::string              &parameter,
+                      InputErrorCollector            &mistakes)
     {
       const auto known = output_field_names();
-      const auto look  = [&](const std::string &parameter, const std::vector<std::string> &fields) {
-        for (const std::string &field : fields)
-          if (std::find(known.begin(), known.end(), field) == known.end())
-            mistakes.add(InputError("unknown field")
-                           .parameter(parameter)
-                           .given(field)
-                           .allowed(join_choices(known))
-                           .nearest(nearest_name(field, known)));
-      };
-      look("Output/Fields", dealii::Utilities::split_string_list(scene.fields, ','));
-      look("Output/Pictures", scene.pictures.field_names());
+      for (const std::string &field : fields)
+        if (std::find(known.begin(), known.end(), field) == known.end())
+          mistakes.add(InputError("unknown field")
+                         .parameter(parameter)
+                         .given(field)
+                         .allowed(join_choices(known))
+                         .nearest(nearest_name(field, known)));
     }
 
     /// Looks at each section by itself.
@@ -151,7 +152,10 @@ namespace perideal
         read_texts<2>(scene, mistakes);
       else
         read_texts<3>(scene, mistakes);
-      check_fields(scene, mistakes);
+      check_fields(dealii::Utilities::split_string_list(scene.fields, ','), "Output/Fields", mistakes);
+      check_fields(scene.pictures.field_names(), "Output/Pictures", mistakes);
+      for (const ProbeText &probe : scene.probes.probes)
+        check_fields(probe.field_names(), "Probes/" + probe.name + "/Fields", mistakes);
     }
 
     /// What a treatment means for displacements and tractions.

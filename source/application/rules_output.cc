@@ -41,11 +41,51 @@ namespace perideal
     bool shows_what_is_not_compared(const Scene &scene)
     {
       const ComparisonParameters &comparison = scene.comparison;
-      return (writes(scene, {"fem"}) && !comparison.fem) ||
+      return (writes(scene, {"fem", "fem stress", "stress error"}) && !comparison.fem) ||
              (writes(scene, {"reference"}) && !comparison.reference) ||
              (writes(scene, {"exact"}) && !comparison.has_exact()) ||
              (writes(scene, {"error"}) && !comparison.fem && !comparison.reference &&
               !comparison.has_exact());
+    }
+
+    /// Probes with one of these fields where a condition holds.
+    Rule::Breaches probes_where(const Condition condition, const std::vector<std::string> &fields)
+    {
+      return [condition, fields](const Scene &scene) {
+        std::vector<std::string> result;
+        for (const ProbeText &probe : scene.probes.probes)
+          if (const auto names = probe.field_names();
+              condition(scene) &&
+              std::find_first_of(names.begin(), names.end(), fields.begin(), fields.end()) != names.end())
+            result.push_back("Probes/" + probe.name + "/Fields");
+        return result;
+      };
+    }
+
+    std::vector<Rule> probe_rules()
+    {
+      return {
+        refuse_each("Probes/NAME/Fields",
+                    "velocity with Solver/Name = static | quasi static | dynamic relaxation",
+                    probes_where([](const Scene &s) { return !s.solver.is_dynamic(); }, fields_of_motion),
+                    "nothing moves in statics",
+                    "other fields with Solver/Name = ...",
+                    "remove it, or set Solver/Name = dynamics"),
+        refuse_each(
+          "Probes/NAME/Fields",
+          "damage, precracks, state with Solver/Name = static",
+          probes_where([](const Scene &s) { return s.solver.is_linear_static(); }, {"damage", "precracks"}),
+          "nothing breaks in linear statics",
+          "other fields with Solver/Name = ...",
+          "remove it, or set Solver/Name = quasi static"),
+        refuse_each(
+          "Probes/NAME/Fields",
+          "fem, reference, exact, error, fem stress, stress error, state",
+          probes_where([](const Scene &) { return true; },
+                       {"fem", "reference", "exact", "error", "fem stress", "stress error", "state"}),
+          "a probe records what every step has; comparisons are made at the end, and the state has "
+          "as many values as the model",
+          "other fields")};
     }
 
     /// Whether the models' bonds know only their own ends.
@@ -175,11 +215,14 @@ namespace perideal
         "(damage, precracks, state)",
         "other fields with Solver/Name = ...",
         "remove them, or set Solver/Name = dynamics"),
-      warn("Output/Fields",
-           "fem, reference, exact or error without Comparison/FEM, Reference or Exact u_x, ...",
-           shows_what_is_not_compared,
-           "a field shows a comparison that is not asked for and is left out: set Comparison/FEM (fem), "
-           "Reference (reference), Exact u_x, ... (exact), or any of them (error)"),
+      warn(
+        "Output/Fields",
+        "fem, fem stress, stress error, reference, exact or error without Comparison/FEM, Reference or Exact "
+        "u_x, ...",
+        shows_what_is_not_compared,
+        "a field shows a comparison that is not asked for and is left out: set Comparison/FEM (fem, fem "
+        "stress, stress error), "
+        "Reference (reference), Exact u_x, ... (exact), or any of them (error)"),
       refuse(
         "Output/Boundary stress",
         "Solver/Name = dynamics",
@@ -207,8 +250,8 @@ namespace perideal
                   "",
                   "remove it, or write Output/Fields = stress"),
     };
-    for (Rule &rule : comparison_rules())
-      result.push_back(std::move(rule));
+    for (const auto &more : {comparison_rules(), probe_rules()})
+      result.insert(result.end(), more.begin(), more.end());
     return result;
   }
 } // namespace perideal

@@ -16,7 +16,8 @@ namespace perideal
     /// Parameters that may differ between a run and the one that goes on from it.
     bool may_change(const std::string &path)
     {
-      for (const char *start : {"/Output directory", "/Output/", "/Checkpoints/", "/Solver/End time"})
+      for (const char *start :
+           {"/Output directory", "/Output/", "/Checkpoints/", "/Solver/End time", "/Solver/Last load step"})
         if (path.compare(0, std::string(start).size(), start) == 0)
           return true;
       return false;
@@ -38,7 +39,9 @@ namespace perideal
                 .parameter(item.key().substr(1))
                 .given(text(b))
                 .allowed(text(a) + ", as in the run that wrote the checkpoint")
-                .hint("only Output directory, Output, Solver/End time and Checkpoints may change");
+                .hint(
+                  "only Output directory, Output, Solver/End time, Solver/Last load step and Checkpoints may "
+                  "change");
             }
     }
 
@@ -96,9 +99,14 @@ namespace perideal
       throw InputError("the checkpoint is beyond the end already")
         .parameter("Solver/End time")
         .allowed(short_number(time) + " s or more");
-    problem.run.screen << "restart     from " << (kind.has_motion ? "step " : "load step ")
-                       << resumed->get<std::uint64_t>("step") << ", t = " << short_number(time)
-                       << (kind.has_motion ? " s" : "") << std::endl;
+    const auto step = resumed->get<std::uint64_t>("step");
+    if (!kind.has_motion && !parameters.solver.is_controlled() && step >= parameters.solver.n_load_steps())
+      throw InputError("the checkpoint is at the last load step already")
+        .parameter("Solver/Last load step")
+        .given(std::to_string(parameters.solver.n_load_steps()))
+        .allowed("more than " + std::to_string(step));
+    problem.run.screen << "restart     from " << (kind.has_motion ? "step " : "load step ") << step
+                       << ", t = " << short_number(time) << (kind.has_motion ? " s" : "") << std::endl;
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/base/stop_request.h>
+#include <perideal/base/text.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/motion_check.h>
 #include <perideal/drivers/motion_forces.h>
@@ -190,9 +191,12 @@ namespace perideal
         const StopRequest stop;
         // Where bonds take the place of cells, loads act on nodes.
         unsigned int version = problem.force->version();
-        StepLine     progress(screen.get_stream(), screen.is_active(), steps.number);
-        for (std::uint64_t n = dynamics->step(); n <= steps.number; ++n)
+        ProgressBar  progress(screen.get_stream(), problem.run.is_watched, "moving");
+        const auto   first = dynamics->step();
+        for (std::uint64_t n = first; n <= steps.number; ++n)
           {
+            if (n == steps.number && n > first && problem.parameters.checkpoints.at_end)
+              save();
             {
               const Timings::Scope scope(problem.run.timings, "solve");
               if ((loads_change || problem.force->version() != version) && n > 0)
@@ -201,7 +205,10 @@ namespace perideal
               dynamics->evaluate(problem.state.external_force);
             }
             observe(n);
-            progress(n, dynamics->n_broken());
+            if (const auto share = static_cast<double>(n) / steps.number; progress.is_due() || n == first)
+              progress.update(share,
+                              "step " + std::to_string(n) + " of " + std::to_string(steps.number) + ", " +
+                                grouped(dynamics->n_broken()) + " broken bonds");
             if (n == steps.number)
               break;
             {

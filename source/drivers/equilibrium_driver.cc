@@ -20,10 +20,7 @@ namespace perideal
   {
     RunKind kind_of(const SolverParameters &solver)
     {
-      RunKind kind;
-      kind.has_iterations        = true;
-      kind.has_linear_iterations = solver.is_quasi_static();
-      return kind;
+      return {false, true, solver.is_quasi_static()};
     }
 
     /// Equilibria of the nonlinear force along load steps, with failure, by Newton's method or dynamic
@@ -82,7 +79,7 @@ namespace perideal
       {
         const std::string steps = solver.is_controlled() ?
                                     ", control by " + name_of(solver.control) :
-                                    " in " + std::to_string(solver.load_steps) + " load step(s)";
+                                    " in " + std::to_string(solver.n_load_steps()) + " load step(s)";
         if (!solver.is_quasi_static())
           return "solver      dynamic relaxation" + steps + '\n';
         return "solver      quasi static, Newton's method" + steps +
@@ -166,6 +163,8 @@ namespace perideal
       bool advance() override
       {
         recorders->summary()["solver"] = solver_report;
+        progress                       = std::make_unique<ProgressBar>(
+          problem.run.screen.get_stream(), problem.run.is_watched, "load steps");
         make_path();
         path->register_state(problem.lasting);
         if (control)
@@ -178,17 +177,22 @@ namespace perideal
           {
             take_load_step(done + 1);
             ++done;
-            const bool stops = stop.is_there(problem.run.communicator);
-            if (!is_done() && (stops || (interval > 0 && done % interval == 0)))
-              this->save_checkpoint(
-                done, control ? controlled->time() : static_cast<double>(done) / solver.load_steps);
+            const bool stops  = stop.is_there(problem.run.communicator);
+            const bool is_due = stops || (interval > 0 && done % interval == 0);
+            if (is_done() ? problem.parameters.checkpoints.at_end && !control : is_due)
+              this->save_checkpoint(done, control ? controlled->time() : time_of(done));
             if (stops)
               break;
           }
         return is_done();
       }
 
-      bool is_done() const { return control ? control->is_done() : done == solver.load_steps; }
+      double time_of(const std::uint64_t number) const
+      {
+        return static_cast<double>(number) / solver.load_steps;
+      }
+
+      bool is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
 
       void take_load_step(const unsigned int number)
       {
@@ -212,14 +216,14 @@ namespace perideal
       /// Goes to the end of a load step, after a failure in halves. Returns the time reached or sought last.
       double search(Step<dim> &step)
       {
-        const double end  = static_cast<double>(step.number) / solver.load_steps;
-        double       time = static_cast<double>(step.number - 1) / solver.load_steps, part = end - time;
+        const double end  = time_of(step.number);
+        double       time = time_of(step.number - 1), part = end - time;
         step.time    = end;
-        step.is_last = step.number == solver.load_steps;
+        step.is_last = step.number == solver.n_load_steps();
         while (time < end)
           {
             const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;
-            EquilibriumStep now  = find_equilibrium(step.number, next);
+            EquilibriumStep now  = find_equilibrium(step.number, time, next);
             now.add_before(step.search);
             step.search = now;
             if (now.converged)
@@ -242,7 +246,6 @@ namespace perideal
       double follow(Step<dim> &step)
       {
         const Timings::Scope scope(problem.run.timings, "solve");
-        auto                &screen = problem.run.screen;
         std::string          what;
         step.search = control->next(
           step.halvings,
@@ -252,34 +255,45 @@ namespace perideal
                    std::to_string(path->n_broken()) + " broken bonds";
           },
           [&](const unsigned int iteration, const double r) {
-            screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
+            show(what, control->share_done(), iteration, r);
           });
+        progress->clear();
         step.time    = controlled->time();
         step.is_last = control->is_done();
         return step.time;
       }
 
-      EquilibriumStep find_equilibrium(const std::uint64_t number, const double time)
+      /// Shows an iteration: on a terminal by a bar, else, of Newton's method, by a line.
+      void
+      show(const std::string &what, const double share, const unsigned int iteration, const double residual)
+      {
+        const std::string text =
+          what + ": iteration " + std::to_string(iteration) + ", residual " + short_number(residual);
+        if (problem.run.is_watched)
+          progress->update(share, text);
+        else if (solver.is_quasi_static())
+          problem.run.screen << text << std::endl;
+      }
+
+      /// Goes on from the equilibrium of one time to that of another.
+      EquilibriumStep find_equilibrium(const std::uint64_t number, const double from, const double time)
       {
         const Timings::Scope scope(problem.run.timings, "solve");
         const unsigned int   version = problem.force->version();
-        auto                &screen  = problem.run.screen;
         const std::string    what    = "load step " + std::to_string(number) + " of " +
-                                 std::to_string(solver.load_steps) + ", " + std::to_string(path->n_broken()) +
-                                 " broken bonds";
-        ProgressLine progress(screen.get_stream(), screen.is_active(), what, solver.tolerance);
+                                 std::to_string(solver.n_load_steps()) + ", " +
+                                 std::to_string(path->n_broken()) + " broken bonds";
+        const double end = time_of(solver.n_load_steps());
         apply_loads(time);
         EquilibriumStep result =
           path->step(problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
-            if (solver.is_quasi_static())
-              screen << what << ": iteration " << iteration << ", residual " << short_number(r) << std::endl;
-            else
-              progress(iteration, r);
+            show(what, (from + (time - from) * share_of_iteration(r, solver.tolerance)) / end, iteration, r);
           });
+        progress->clear();
         if (!result.converged || problem.force->version() == version)
           return result;
         // Where bonds have taken the place of cells, loads act on nodes.
-        EquilibriumStep again = find_equilibrium(number, time);
+        EquilibriumStep again = find_equilibrium(number, from, time);
         again.add_before(result);
         return again;
       }
@@ -319,6 +333,7 @@ namespace perideal
       /// Where the loads are an unknown: the path, and its steps.
       ControlledNewton<dim>            *controlled = nullptr;
       std::unique_ptr<LoadControl<dim>> control;
+      std::unique_ptr<ProgressBar>      progress;
       nlohmann::ordered_json            solver_report;
       /// Load steps.
       unsigned int done = 0;

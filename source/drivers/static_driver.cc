@@ -110,13 +110,13 @@ namespace perideal
         problem.system->residual(residual, state.external_force, state.unknowns);
         problem.free_motions.project(residual);
 
-        ProgressLine      progress(std::cout,
-                              problem.run.screen.is_active(),
-                              "solving t = " + short_number(step.time),
-                              problem.parameters.solver.tolerance);
+        const double tolerance = problem.parameters.solver.tolerance;
+        ProgressBar  progress(
+          problem.run.screen.get_stream(), problem.run.is_watched, "solving t = " + short_number(step.time));
         const LinearSolve result =
           solver->solve(correction, residual, [&](const unsigned int iteration, const double r) {
-            progress(iteration, r);
+            progress.update(share_of_iteration(r, tolerance),
+                            "iteration " + std::to_string(iteration) + ", residual " + short_number(r));
           });
         state.unknowns += correction;
         step.search.iterations = result.iterations;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/base/work_progress.h>
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/displacement_constraints.h>
 #include <perideal/fem/elastic_fem.h>
@@ -8,6 +9,8 @@
 #include <perideal/mesh/create_mesh.h>
 
 #include <deal.II/lac/solver_cg.h>
+
+#include <cmath>
 
 namespace perideal
 {
@@ -135,6 +138,13 @@ namespace perideal
     dealii::SolverControl control(largest_number_of_iterations, tolerance * right_hand_side.l2_norm());
     dealii::SolverCG<NodalVector> cg(control);
     displacement = 0.;
+    const WorkProgress progress("solving finite elements");
+    const double       first = right_hand_side.l2_norm();
+    cg.connect([&](const unsigned int, const double residual, const NodalVector &) {
+      if (residual > 0 && residual < first)
+        progress.share(std::log(residual / first) / std::log(tolerance));
+      return dealii::SolverControl::success;
+    });
     try
       {
         if (algebraic_multigrid != nullptr)

@@ -125,6 +125,14 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<dealii::Tensor<2, dim>>
+  HyperelasticFem<dim>::gradients_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const
+  {
+    return perideal::gradients_in_cells<dim>(
+      space.geometry, space.unknowns, fields.displacement, point_of_cell);
+  }
+
+  template <int dim>
   dealii::Tensor<1, dim> HyperelasticFem<dim>::reaction(const dealii::types::boundary_id boundary) const
   {
     return -sum_of_held(space.unknowns, held, fields.balance, boundary);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/work_progress.h>
 #include <perideal/neighbourhood/families.h>
 #include <perideal/neighbourhood/halo.h>
 #include <perideal/neighbourhood/volume_rule.h>
@@ -129,8 +130,10 @@ namespace perideal
     std::vector<bool>                                              used(ghost_number.size(), false);
     std::vector<LocalIndex>                                        leaves;
     std::array<std::vector<LocalIndex>, PointTree<dim>::leaf_size> family;
+    WorkProgress progress("finding neighbours", tree.n_leaves());
     for (LocalIndex leaf = 0; leaf < tree.n_leaves(); ++leaf)
       {
+        progress(leaf);
         const LocalIndex begin = tree.leaf_begin(leaf), end = tree.leaf_end(leaf);
         for (auto &members : family)
           members.clear();

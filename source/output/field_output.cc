@@ -1,133 +1,104 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
-#include <perideal/base/links.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/files.h>
-#include <perideal/output/tensor_components.h>
 
+#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/fe/fe_dgq.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
-#include <fstream>
+#include <map>
 #include <sstream>
 
 namespace perideal
 {
   namespace
   {
-    /// What DataOut would write.
-    template <int dim>
-    struct OpenDataOut : public dealii::DataOut<dim>
-    {
-      using dealii::DataOut<dim>::get_dataset_names;
-      using dealii::DataOut<dim>::get_nonscalar_data_ranges;
-      using dealii::DataOut<dim>::get_patches;
-    };
+    /// Numbers that one message takes.
+    constexpr std::size_t at_once = 1 << 27;
 
-    /// Letters that one message takes.
-    constexpr std::size_t at_once = 1 << 28;
-
-    /// Writes the texts of all ranks, in their order, through the first one, to a file beside the path that
-    /// then takes its place. (MPI's own files print lines of their own where a disk is full, and tell no
-    /// error.) Collective. @throws ComputationError on all ranks.
-    void write_texts(const std::string &path, const std::string &text, MPI_Comm communicator)
+    /// Puts the values of all ranks behind those of the first one, in their order. Collective.
+    template <typename T>
+    void append_other_ranks(std::vector<T> &values, MPI_Comm communicator)
     {
-      using namespace dealii::Utilities::MPI;
-      const auto        sizes      = all_gather(communicator, static_cast<std::uint64_t>(text.size()));
-      const std::string part       = path + ".part";
-      bool              is_written = true;
-      if (this_mpi_process(communicator) != 0)
-        for (std::size_t k = 0; k < text.size(); k += at_once)
-          MPI_Send(text.data() + k, std::min(at_once, text.size() - k), MPI_CHAR, 0, 0, communicator);
-      else
+      const auto type = dealii::Utilities::MPI::mpi_type_id_for_type<T>;
+      const auto sizes =
+        dealii::Utilities::MPI::all_gather(communicator, static_cast<std::uint64_t>(values.size()));
+      const auto part = [&](const std::size_t n, const std::size_t k) { return std::min(at_once, n - k); };
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
         {
-          remove_link(part);
-          std::ofstream file(part, std::ios::binary);
-          file << text;
-          std::vector<char> received;
-          for (unsigned int rank = 1; rank < sizes.size(); ++rank)
-            for (std::size_t k = 0; k < sizes[rank]; k += at_once)
-              {
-                received.resize(std::min<std::size_t>(at_once, sizes[rank] - k));
-                MPI_Recv(
-                  received.data(), received.size(), MPI_CHAR, rank, 0, communicator, MPI_STATUS_IGNORE);
-                file.write(received.data(), received.size());
-              }
-          file.close();
-          is_written = file.good();
+          for (std::size_t k = 0; k < values.size(); k += at_once)
+            MPI_Send(values.data() + k, part(values.size(), k), type, 0, 0, communicator);
+          return;
         }
-      write_together(communicator, [&] {
-        if (this_mpi_process(communicator) == 0)
-          finish_file(is_written, part, path);
-      });
+      for (unsigned int rank = 1; rank < sizes.size(); ++rank)
+        {
+          const std::size_t before = values.size();
+          values.resize(before + sizes[rank]);
+          for (std::size_t k = 0; k < sizes[rank]; k += at_once)
+            MPI_Recv(values.data() + before + k,
+                     part(sizes[rank], k),
+                     type,
+                     rank,
+                     0,
+                     communicator,
+                     MPI_STATUS_IGNORE);
+        }
     }
   } // namespace
 
   template <int dim>
-  FieldOutput<dim>::FieldOutput(const Mesh<dim>   &mesh,
-                                const Nodes<dim>  &nodes,
-                                const std::string &directory,
-                                const OutputSteps  steps)
-    : triangulation(mesh.triangulation)
-    , node_of_cell(nodes.node_of_cell)
+  FieldOutput<dim>::FieldOutput(const Mesh<dim>                 &mesh,
+                                const Nodes<dim>                &nodes,
+                                std::unique_ptr<MeshPoints<dim>> points,
+                                const std::string               &directory,
+                                const OutputSteps                steps,
+                                const OutputFormat               format)
+    : mesh_points(std::move(points))
     , directory(directory)
     , steps(steps)
+    , format(format)
     , communicator(nodes.communicator)
-    , vector_unknowns(mesh.triangulation)
   {
     create_output_directory(directory, communicator);
-    vector_unknowns.distribute_dofs(dealii::FESystem<dim>(dealii::FE_DGQ<dim>(0), dim));
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        node_of_cell.push_back(nodes.node_of_cell[cell->active_cell_index()]);
+  }
+
+  template <int dim>
+  void FieldOutput<dim>::add_at_points(const std::string &name, const std::vector<CornerValues<dim>> &values)
+  {
+    AssertDimension(values.size(), node_of_cell.size());
+    at_points.emplace_back(name, values);
   }
 
   template <int dim>
   void FieldOutput<dim>::add_vector(const std::string                         &name,
                                     const std::vector<dealii::Tensor<1, dim>> &values)
   {
-    CellVector cell_values(vector_unknowns.locally_owned_dofs(), communicator);
-
-    std::vector<dealii::types::global_dof_index> unknowns(dim);
-    for (const auto &cell : vector_unknowns.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const LocalIndex node = node_of_cell[cell->active_cell_index()];
-          AssertIndexRange(node, values.size());
-          cell->get_dof_indices(unknowns);
-          for (unsigned int d = 0; d < dim; ++d)
-            cell_values(unknowns[d]) = values[node][d];
-        }
-    vectors.emplace_back(name, std::move(cell_values));
+    VtuArray array{name, 3, {}};
+    for (const LocalIndex node : node_of_cell)
+      {
+        AssertIndexRange(node, values.size());
+        for (unsigned int d = 0; d < 3; ++d)
+          array.values.push_back(d < dim ? values[node][d] : 0.);
+      }
+    of_cells.push_back(std::move(array));
   }
 
   template <int dim>
   void FieldOutput<dim>::add_scalar(const std::string &name, const std::vector<double> &values)
   {
-    dealii::Vector<double> cell_values(triangulation.n_active_cells());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const LocalIndex node = node_of_cell[cell->active_cell_index()];
-          AssertIndexRange(node, values.size());
-          cell_values[cell->active_cell_index()] = values[node];
-        }
-    scalars.emplace_back(name, std::move(cell_values));
-  }
-
-  template <int dim>
-  void FieldOutput<dim>::add_tensor(const std::string                                &name,
-                                    const std::vector<dealii::SymmetricTensor<2, 3>> &values)
-  {
-    std::vector<double> component(values.size());
-    for (const auto &[suffix, a, b] : tensor_components<dim>())
+    VtuArray array{name, 1, {}};
+    for (const LocalIndex node : node_of_cell)
       {
-        for (std::size_t i = 0; i < values.size(); ++i)
-          component[i] = values[i][a][b];
-        add_scalar(name + "_" + suffix, component);
+        AssertIndexRange(node, values.size());
+        array.values.push_back(values[node]);
       }
+    of_cells.push_back(std::move(array));
   }
 
   template <int dim>
@@ -140,53 +111,120 @@ namespace perideal
   template <int dim>
   void FieldOutput<dim>::write(const unsigned int step, const double time)
   {
-    const std::string name = filename(step);
-    write_vtu(directory + "/" + name, step, time);
-    list_in_pvd(name, time);
-    vectors.clear();
-    scalars.clear();
+    VtuPiece piece = format == OutputFormat::vtu ? whole_body() : own_cells();
+    piece.step     = step;
+    piece.time     = time;
+    if (format == OutputFormat::vtu)
+      write_vtu(piece, directory + "/" + filename(step));
+    else
+      write_pvtu(piece, stem(step));
+    list_in_pvd(filename(step), time);
+    at_points.clear();
+    of_cells.clear();
+  }
+
+  template <int dim>
+  std::string FieldOutput<dim>::stem(const unsigned int step) const
+  {
+    return steps == OutputSteps::single ? "solution" :
+                                          "solution_" + dealii::Utilities::int_to_string(step, 4);
   }
 
   template <int dim>
   std::string FieldOutput<dim>::filename(const unsigned int step) const
   {
-    return steps == OutputSteps::single ? "solution.vtu" :
-                                          "solution_" + dealii::Utilities::int_to_string(step, 4) + ".vtu";
+    return stem(step) + "." + name_of(format);
   }
 
   template <int dim>
-  void FieldOutput<dim>::write_vtu(const std::string &path, const unsigned int step, const double time) const
+  void FieldOutput<dim>::set_points(const std::vector<Corner> &corners, VtuPiece &piece) const
   {
-    OpenDataOut<dim>              data_out;
-    dealii::DataOutBase::VtkFlags flags(time, step);
-    // Equal runs leave equal files.
-    flags.print_date_and_time = false;
-    flags.compression_level   = dealii::DataOutBase::VtkFlags::best_speed;
-    data_out.set_flags(flags);
+    const auto add = [](const dealii::Tensor<1, dim> &value, std::vector<float> &values) {
+      for (unsigned int d = 0; d < 3; ++d)
+        values.push_back(d < dim ? value[d] : 0.);
+    };
+    piece.dimension = dim;
+    piece.cell_data = of_cells;
+    for (const Corner &at : corners)
+      add(mesh_points->cell(at.node)->vertex(at.corner), piece.points);
+    for (const auto &[name, values] : at_points)
+      {
+        piece.point_data.push_back({name, 3, {}});
+        for (const Corner &at : corners)
+          add(values[at.node][at.corner], piece.point_data.back().values);
+      }
+  }
 
-    data_out.attach_triangulation(triangulation);
-    const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation> is_vector(
-      dim, dealii::DataComponentInterpretation::component_is_part_of_vector);
-    for (const auto &[name, values] : vectors)
-      data_out.add_data_vector(vector_unknowns, values, std::vector<std::string>(dim, name), is_vector);
-    for (const auto &[name, values] : scalars)
-      data_out.add_data_vector(values, name, dealii::DataOut<dim>::type_cell_data);
+  template <int dim>
+  VtuPiece FieldOutput<dim>::whole_body() const
+  {
+    VtuPiece piece;
+    set_points(mesh_points->own_points(), piece);
+    for (const LocalIndex node : node_of_cell)
+      for (const GlobalIndex point : mesh_points->numbers()[node])
+        piece.corners.push_back(point);
+    append_other_ranks(piece.points, communicator);
+    append_other_ranks(piece.corners, communicator);
+    for (auto *arrays : {&piece.point_data, &piece.cell_data})
+      for (VtuArray &array : *arrays)
+        append_other_ranks(array.values, communicator);
+    return piece;
+  }
 
-    // A constant needs the corners of its cell and nothing between.
-    data_out.build_patches(1);
-    std::ostringstream text;
+  template <int dim>
+  VtuPiece FieldOutput<dim>::own_cells() const
+  {
+    VtuPiece                            piece;
+    std::vector<Corner>                 corners;
+    std::map<GlobalIndex, std::int64_t> place;
+    for (const LocalIndex node : node_of_cell)
+      for (unsigned int v = 0; v < MeshPoints<dim>::n_corners; ++v)
+        {
+          const auto found = place.insert({mesh_points->numbers()[node][v], corners.size()});
+          if (found.second)
+            corners.push_back({node, v});
+          piece.corners.push_back(found.first->second);
+        }
+    set_points(corners, piece);
+    return piece;
+  }
+
+  template <int dim>
+  void FieldOutput<dim>::write_vtu(VtuPiece &piece, const std::string &path) const
+  {
+    write_together(communicator, [&] {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        replace_file(path, vtu_text(piece));
+    });
+  }
+
+  template <int dim>
+  void FieldOutput<dim>::write_pvtu(VtuPiece &piece, const std::string &stem) const
+  {
+    const auto file_of = [&](const unsigned int rank) {
+      return stem + "_" + dealii::Utilities::int_to_string(rank, 4) + ".vtu";
+    };
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-    if (rank == 0)
-      dealii::DataOutBase::write_vtu_header(text, flags);
-    if (rank == 0 || !data_out.get_patches().empty())
-      dealii::DataOutBase::write_vtu_main(data_out.get_patches(),
-                                          data_out.get_dataset_names(),
-                                          data_out.get_nonscalar_data_ranges(),
-                                          flags,
-                                          text);
-    if (rank + 1 == dealii::Utilities::MPI::n_mpi_processes(communicator))
-      dealii::DataOutBase::write_vtu_footer(text);
-    write_texts(path, text.str(), communicator);
+    std::string        problem;
+    try
+      {
+        replace_file(directory + "/" + file_of(rank), vtu_text(piece));
+      }
+    catch (const ComputationError &error)
+      {
+        problem = error.what();
+      }
+    for (const std::string &of_rank : dealii::Utilities::MPI::all_gather(communicator, problem))
+      if (!of_rank.empty())
+        throw ComputationError(of_rank);
+    write_together(communicator, [&] {
+      if (rank != 0)
+        return;
+      std::vector<std::string> files;
+      for (unsigned int other = 0; other < dealii::Utilities::MPI::n_mpi_processes(communicator); ++other)
+        files.push_back(file_of(other));
+      replace_file(directory + "/" + stem + ".pvtu", pvtu_text(piece, files));
+    });
   }
 
   template <int dim>

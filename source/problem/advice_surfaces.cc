@@ -131,7 +131,7 @@ namespace perideal
     warn_of_loaded_holes(problem, result);
     // Measured against finite elements: 5 % in l2 on the plate with a hole, 25 % in a cantilever of eight
     // cells.
-    if (needs_strain(problem.parameters.field_names()) && !model.is_correspondence())
+    if (needs_strain(problem.parameters.all_field_names()) && !model.is_correspondence())
       result.push_back(
         "fields of strain and stress are means over families here: expect 5 % in wide bodies and 25 % "
         "in bent parts of eight cells; Comparison/FEM = true tells how far they are off" +

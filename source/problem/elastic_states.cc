@@ -70,10 +70,16 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  ElasticState state_by_law(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &gradient)
+  {
+    return {strain_of(law, gradient), law.cauchy_stress(gradient), law.energy(gradient)};
+  }
+
+  template <int dim>
   bool has_elastic_states(const Problem<dim> &problem)
   {
     return problem.discretisation.gradients || force_by_law(problem) != nullptr ||
-           needs_strain(problem.parameters.field_names());
+           needs_strain(problem.parameters.all_field_names());
   }
 
   template <int dim>
@@ -105,7 +111,7 @@ namespace perideal
         for (const auto &H : force->gradients())
           {
             const HyperelasticLaw<dim> &law = force->law(result.size());
-            result.push_back({strain_of(law, H), law.cauchy_stress(H), law.energy(H)});
+            result.push_back(state_by_law(law, H));
           }
         return result;
       }
@@ -121,6 +127,7 @@ namespace perideal
     return result;
   }
 
+  PERIDEAL_INSTANTIATE(state_by_law)
   PERIDEAL_INSTANTIATE(has_elastic_states)
   PERIDEAL_INSTANTIATE(displacement_of_families)
   PERIDEAL_INSTANTIATE(elastic_states)

@@ -59,10 +59,18 @@ namespace perideal
       {
         prm.enter_subsection(line.name);
         prm.add_parameter("From", line.from, "Where a line through the body begins: coordinates [m]");
-        prm.add_parameter("To",
-                          line.to,
-                          "Where it ends: coordinates [m]. Along it displacements are written to "
-                          "profile_NAME.csv and compared");
+        prm.add_parameter(
+          "To",
+          line.to,
+          "Where it ends: coordinates [m]. Along it displacements are written to "
+          "profile_NAME.csv and compared, by node; and displacement, strain and stress, those of "
+          "the finite elements beside them, to line_NAME.csv, interpolated");
+        prm.add_parameter(
+          "Points",
+          line.points,
+          "Points of line_NAME.csv, evenly from one end to the other; those outside the body are "
+          "left out",
+          Integer(2));
         prm.leave_subsection();
       }
     prm.leave_subsection();
@@ -91,10 +99,16 @@ namespace perideal
                       "asked to stop (SIGTERM, SIGINT), which it does after the step",
                       Integer(0));
     prm.add_parameter(
+      "At end",
+      at_end,
+      "Leave a checkpoint at the end too, from which a run with a later Solver/End time or Last "
+      "load step goes on",
+      Bool());
+    prm.add_parameter(
       "Restart",
       restart,
       "Continue from the last checkpoint in Output directory; any number of ranks may do so, and "
-      "Solver/End time and the section Output may change",
+      "Solver/End time, Solver/Last load step and the section Output may change",
       Bool());
     prm.leave_subsection();
   }
@@ -122,19 +136,33 @@ namespace perideal
     comparison.declare(prm, file);
     areal_forces.declare(prm, file);
     gauges.declare(prm, file);
+    probes.declare(prm, file);
     prm.enter_subsection("Output");
     prm.add_parameter(
       "Fields",
       fields,
       "Fields in solution.vtu, separated by commas: " + join_choices(output_field_names()) +
         ". family status adds up 1: fallback weights, 2: a moment condition missed, 4: negative "
-        "deviatoric weights met");
+        "deviatoric weights met. displacement is at the points of the mesh, two at each vertex that a crack "
+        "runs "
+        "through, all others of cells");
+    prm.add_parameter(
+      "Format",
+      format,
+      "vtu: one file with the cells of all ranks; pvtu: a file for the cells of each rank and one "
+      "that lists them, for meshes that are large for one process");
     prm.add_parameter(
       "Boundary stress",
       boundary_stress,
       "Boundaries (physical names or ids) whose stresses, recovered at each face, are written to "
       "stress_NAME.csv, with the extremes in summary.json",
       List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter(
+      "Frame steps",
+      frame_steps,
+      "Load steps that leave field files: one number n, every n-th; several, separated by commas, "
+      "these; empty: all. The last load step leaves one in any case",
+      List(Integer(1), 0, List::max_int_value, ","));
     prm.add_parameter("Frames", frames, "Field files that dynamics leave, at equal times", Integer(1));
     prm.add_parameter(
       "History steps", history_steps, "Steps between two rows of the history of dynamics", Integer(1));
@@ -154,6 +182,23 @@ namespace perideal
       if (std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
     return names;
+  }
+
+  bool SceneParameters::has_frame(const std::uint64_t step) const
+  {
+    if (frame_steps.size() == 1)
+      return step % frame_steps[0] == 0;
+    return frame_steps.empty() ||
+           std::find(frame_steps.begin(), frame_steps.end(), step) != frame_steps.end();
+  }
+
+  std::vector<std::string> SceneParameters::all_field_names() const
+  {
+    std::vector<std::string> result = field_names();
+    for (const ProbeText &probe : probes.probes)
+      for (const std::string &name : probe.field_names())
+        result.push_back(name);
+    return result;
   }
 
   bool can_break(const SceneParameters &parameters)

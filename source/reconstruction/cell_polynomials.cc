@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/work_progress.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 #include <perideal/reconstruction/quadratic_fit.h>
 
@@ -286,9 +287,13 @@ namespace perideal
     row.reserve(nodes.size() + 1);
     column.reserve(n_entries);
     coefficient.reserve(n_entries);
-    Builder builder(*this, stiffness, is_cut);
-    for (const auto &cell : cell_of_node)
-      builder.add(cell);
+    Builder      builder(*this, stiffness, is_cut);
+    WorkProgress progress("fitting polynomials", cell_of_node.size());
+    for (LocalIndex i = 0; i < cell_of_node.size(); ++i)
+      {
+        progress(i);
+        builder.add(cell_of_node[i]);
+      }
     cells.forget_layers();
   }
 

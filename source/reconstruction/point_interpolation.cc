@@ -8,6 +8,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <boost/serialization/utility.hpp>
+
+#include <algorithm>
+#include <limits>
 #include <sstream>
 
 namespace perideal
@@ -15,19 +19,47 @@ namespace perideal
   namespace
   {
     template <int dim>
-    void check_inside(const std::vector<typename PointInterpolation<dim>::NamedPoint> &points,
+    std::string coordinates_of(const dealii::Point<dim> &point)
+    {
+      std::ostringstream text;
+      for (int d = 0; d < dim; ++d)
+        text << (d > 0 ? ", " : "") << point[d];
+      return text.str();
+    }
+
+    /// The node of all ranks that is nearest to a point. Collective.
+    template <int dim>
+    dealii::Point<dim> nearest_node(const CellGraph<dim> &graph, const dealii::Point<dim> &point)
+    {
+      dealii::Point<dim> nearest;
+      double             distance = std::numeric_limits<double>::infinity();
+      for (LocalIndex i = 0; i < graph.n_owned(); ++i)
+        if (const double here = graph.position[i].distance(point); here < distance)
+          {
+            distance = here;
+            nearest  = graph.position[i];
+          }
+      const auto of_ranks =
+        dealii::Utilities::MPI::all_gather(graph.communicator, std::pair(distance, nearest));
+      return std::min_element(of_ranks.begin(),
+                              of_ranks.end(),
+                              [](const auto &a, const auto &b) { return a.first < b.first; })
+        ->second;
+    }
+
+    /// Collective, with the same distances on all ranks.
+    template <int dim>
+    void check_inside(const CellGraph<dim>                                            &graph,
+                      const std::vector<typename PointInterpolation<dim>::NamedPoint> &points,
                       const std::vector<double>                                       &distances)
     {
       for (std::size_t p = 0; p < distances.size(); ++p)
         if (distances[p] > PointLocation<dim>::still_near)
-          {
-            std::ostringstream text;
-            text << points[p].position;
-            throw InputError("this is a point outside the body")
-              .parameter(points[p].parameter)
-              .given(text.str())
-              .allowed("points of the body and its boundary, up to a tenth of a cell outside");
-          }
+          throw InputError("this is a point outside the body")
+            .parameter(points[p].parameter)
+            .given(coordinates_of(points[p].position))
+            .allowed("points of the body and its boundary, up to a tenth of a cell outside")
+            .hint("the nearest node is at " + coordinates_of(nearest_node(graph, points[p].position)));
     }
   } // namespace
 
@@ -44,7 +76,7 @@ namespace perideal
     const dealii::MappingQ1<dim> mapping;
     std::vector<double>          distances;
     const auto places = PointLocation<dim>(mesh.triangulation, mapping).share(positions, distances);
-    check_inside<dim>(points, distances);
+    check_inside<dim>(graph, points, distances);
 
     shares_of_points.resize(points.size());
     for (std::size_t p = 0; p < points.size(); ++p)
@@ -62,7 +94,8 @@ namespace perideal
   template <int dim>
   PointInterpolation<dim>::PointInterpolation(const Mesh<dim>               &mesh,
                                               const CellGraph<dim>          &graph,
-                                              const std::vector<NamedPoint> &points)
+                                              const std::vector<NamedPoint> &points,
+                                              const BondPredicate<dim>      &is_cut)
   {
     LinearInterpolation<dim> interpolation;
     collect(mesh, graph, points, [&](const auto &cell, const auto &x, const double factor, auto &share) {
@@ -70,7 +103,8 @@ namespace perideal
       std::vector<LocalIndex>         stencil;
       std::vector<dealii::Point<dim>> around;
       for (const LocalIndex j : graph.cells_around(cell))
-        if (graph.material[j] == graph.material[own])
+        if (graph.material[j] == graph.material[own] &&
+            !(is_cut && is_cut(graph.position[own], graph.position[j])))
           {
             stencil.push_back(j);
             around.push_back(graph.position[j]);

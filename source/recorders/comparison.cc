@@ -6,6 +6,7 @@
 #include <perideal/output/profiles.h>
 #include <perideal/parameters/point_text.h>
 #include <perideal/problem/elastic_states.h>
+#include <perideal/recorders/line_values.h>
 #include <perideal/recorders/make_recorders.h>
 
 #include <cmath>
@@ -103,6 +104,14 @@ namespace perideal
         , exact(read_exact<dim>(parameters))
         , profiles(make_profiles(problem.body))
       {
+        std::vector<typename LineValues<dim>::Line> lines;
+        for (const LineText &line : parameters.lines)
+          {
+            const auto [from, to] = ends_of<dim>(line);
+            lines.push_back({line.name, from, to, line.points});
+          }
+        if (!lines.empty())
+          line_values = std::make_unique<LineValues<dim>>(problem, lines);
       }
 
       void prepare_fields(const Step<dim> &step) override
@@ -223,6 +232,8 @@ namespace perideal
             profile.second->write(problem.parameters.output_directory + "/profile_" + profile.first + ".csv",
                                   fields);
           }
+        if (line_values)
+          line_values->write(problem.parameters.output_directory);
         return result;
       }
 
@@ -232,6 +243,7 @@ namespace perideal
       const bool                                    solves_fem;
       const std::array<SpaceTimeFunction<dim>, dim> exact;
       const Profiles<dim>                           profiles;
+      std::unique_ptr<LineValues<dim>>              line_values;
     };
   } // namespace
 

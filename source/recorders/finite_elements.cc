@@ -3,6 +3,7 @@
 #include <perideal/boundary/gauges.h>
 #include <perideal/fem/hyperelastic_fem.h>
 #include <perideal/output/summary.h>
+#include <perideal/problem/elastic_states.h>
 #include <perideal/problem/finite_elements.h>
 #include <perideal/recorders/make_recorders.h>
 
@@ -33,7 +34,6 @@ namespace perideal
       void start(Json &summary) override
       {
         const Timings::Scope scope(problem.run.timings, "fem");
-        LawsByMaterial<dim>  laws;
         for (const auto &solid : problem.discretisation.compared_solids(problem.body, *problem.body.mesh))
           laws[solid.first] = create_law<dim>(problem.parameters.model.law, solid.second);
         typename HyperelasticFem<dim>::Controls controls;
@@ -60,7 +60,17 @@ namespace perideal
 
       void conclude(const Step<dim> &, const Record &) override
       {
-        problem.state.comparisons["fem"] = on_mesh_at_nodes<dim>(problem, *fem);
+        const Nodes<dim> &nodes = *problem.body.nodes;
+        FemSolution<dim>  solution;
+        solution.displacement = on_mesh_at_nodes<dim>(problem, *fem);
+        solution.n_unknowns   = fem->n_dofs();
+        solution.states.emplace();
+        for (const auto &gradient :
+             in_cells_of_nodes(nodes, [&](const auto &points) { return fem->gradients_in_cells(points); }))
+          solution.states->push_back(
+            state_by_law(*laws.at(nodes.material[solution.states->size()]), gradient));
+        problem.state.comparisons["fem"] = solution.displacement;
+        problem.state.fem                = std::move(solution);
       }
 
       /// Finite elements leave no checkpoints: they take their steps again.
@@ -124,6 +134,7 @@ namespace perideal
       }
 
       Problem<dim>                         &problem;
+      LawsByMaterial<dim>                   laws;
       std::unique_ptr<Gauges<dim>>          gauges;
       unsigned int                          n_steps = 0;
       std::unique_ptr<HyperelasticFem<dim>> fem;

@@ -6,8 +6,9 @@
 // make_NAME_recorder(), and one line here.
 #define PERIDEAL_RECORDERS(recorder)                                                                         \
   recorder(iterations) recorder(energy) recorder(damage) recorder(reactions) recorder(displacements)         \
-    recorder(cracks) recorder(areal_forces) recorder(gauges) recorder(finite_elements) recorder(comparison)  \
-      recorder(load_resultants) recorder(discretisation_error) recorder(boundary_stress) recorder(validity)
+    recorder(cracks) recorder(areal_forces) recorder(gauges) recorder(probes) recorder(finite_elements)      \
+      recorder(comparison) recorder(load_resultants) recorder(discretisation_error)                          \
+        recorder(boundary_stress) recorder(validity)
 
 namespace perideal
 {

@@ -6,6 +6,7 @@
 #include <perideal/output/summary.h>
 #include <perideal/problem/description.h>
 #include <perideal/problem/output_fields.h>
+#include <perideal/problem/vertex_displacement.h>
 #include <perideal/recorders/recorders.h>
 #include <perideal/recorders/report.h>
 
@@ -31,7 +32,7 @@ namespace perideal
   void Recorders<dim>::open(const double last_row, const Checkpoint *resumed)
   {
     const SceneParameters       &parameters = problem.parameters;
-    const bool                   is_series  = kind.has_motion || parameters.solver.load_steps > 1;
+    const bool                   is_series  = kind.has_motion || parameters.solver.n_load_steps() > 1;
     std::optional<std::uint32_t> checksum;
     if (resumed != nullptr)
       checksum = resumed->get<std::uint32_t>("history");
@@ -41,8 +42,10 @@ namespace perideal
       problem.run.warn(history->warning());
     fields = std::make_unique<FieldOutput<dim>>(*problem.body.mesh,
                                                 *problem.body.nodes,
+                                                make_mesh_points(problem),
                                                 parameters.output_directory,
-                                                is_series ? OutputSteps::series : OutputSteps::single);
+                                                is_series ? OutputSteps::series : OutputSteps::single,
+                                                parameters.format);
     for (auto &recorder : recorders)
       recorder->start(result);
     register_state(problem.lasting);
@@ -69,6 +72,8 @@ namespace perideal
   template <int dim>
   void Recorders<dim>::write_fields(const Step<dim> &step)
   {
+    if (!kind.has_motion && !step.is_last && !problem.parameters.has_frame(step.number))
+      return;
     const Timings::Scope scope(problem.run.timings, "output");
     for (auto &recorder : recorders)
       recorder->prepare_fields(step);
@@ -92,10 +97,12 @@ namespace perideal
     if (!is_new || state.displacement.size() != problem.body.nodes->size())
       return;
     const SceneParameters &parameters = problem.parameters;
-    fields->add_vector("displacement", state.displacement);
-    // Load steps end at 1: what failed stands behind them.
-    fields->write((kind.has_motion ? parameters.frames : parameters.solver.load_steps) + 1,
-                  kind.has_motion ? last_time : 2.);
+    add_output_fields(problem, {"displacement"}, *fields);
+    // What failed stands behind all load steps.
+    const unsigned int n_steps = parameters.solver.n_load_steps();
+    fields->write((kind.has_motion ? parameters.frames : n_steps) + 1,
+                  kind.has_motion ? last_time :
+                                    1. + static_cast<double>(n_steps) / parameters.solver.load_steps);
   }
 
   namespace

@@ -66,6 +66,13 @@ namespace perideal
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",
                       Integer(1));
     prm.add_parameter(
+      "Last load step",
+      last_load_step,
+      "Number of the load step after which quasi static and dynamic relaxation end, at t = number "
+      "/ Load steps, earlier or later than 1; 0: Load steps. A run that goes on from a checkpoint "
+      "may have another",
+      Integer(0));
+    prm.add_parameter(
       "Control",
       control,
       "What grows by prescribed amounts in quasi static. loads: their formulas of t; gauge: the elongation "

@@ -64,7 +64,8 @@ def listed_scene(program, folder):
               "Precracks/ANY NAME/Points=0, 0.5; 0.5, 0.5", "Cracks/ANY NAME/Origin=0.5, 0.5",
               "No-fail zones/ANY NAME/Box=0, 0; 0.5, 0.5",
               "Areal force densities/ANY NAME/Point=0.5, 0.5", "Areal force densities/ANY NAME/Normal=1, 0",
-              "Gauges/ANY NAME/From=0, 0.5", "Gauges/ANY NAME/To=1, 0.5"]
+              "Gauges/ANY NAME/From=0, 0.5", "Gauges/ANY NAME/To=1, 0.5",
+              "Probes/ANY NAME/Point=0.5, 0.5"]
     return n_groups, [argument for value in values for argument in ("--set", value)]
 
 

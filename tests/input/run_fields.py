@@ -59,9 +59,10 @@ end
 ARRAYS = {"strain": "strain_xx", "stress": "stress_xx", "von mises": "von_mises_stress",
           "principal stress": "smallest_principal_stress", "strain energy density": "strain_energy_density",
           "family status": "family_status", "fem": "fem_displacement", "reference": "reference_displacement",
-          "exact": "exact_displacement", "error": "error_against_"}
+          "exact": "exact_displacement", "error": "error_against_", "fem stress": "fem_stress_xx",
+          "stress error": "stress_error_xx"}
 # What fields need beside them.
-NEEDED = {"fem": ["Comparison/FEM=true"], "reference": ["Comparison/Reference=true"],
+NEEDED = {**dict.fromkeys(("fem", "fem stress", "stress error"), ["Comparison/FEM=true"]), "reference": ["Comparison/Reference=true"],
           "exact": [f"Comparison/Exact u_{axis}=1e-5*x" for axis in "xyz"]}
 NEEDED["error"] = NEEDED["exact"]
 # The rule that may refuse a scene of one field.
@@ -72,7 +73,7 @@ FOREIGN = ("terminate called", "Stacktrace", "An error occurred", "HDF5-DIAG", "
 
 def field_names(program):
     text = run(program, "--parameters", "markdown")[1]
-    line = next(line for line in text.splitlines() if line.startswith("| `Fields`"))
+    line = next(line for line in text.splitlines() if line.startswith("| `Fields`") and "solution.vtu" in line)
     listed = line.split("separated by commas: ")[1].split(". ")[0]
     return [name.strip() for name in listed.split("\\|")]
 

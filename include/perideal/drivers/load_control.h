@@ -37,6 +37,9 @@ namespace perideal
     /// Whether the last equilibrium is the end.
     bool is_done() const;
 
+    /// How much of the path is behind [-]: of what is controlled where its end is known, else of the loads.
+    double share_done() const { return solver.control_end > 0 ? reached / solver.control_end : path.time(); }
+
     void register_state(LastingState &state);
 
   private:

@@ -72,6 +72,10 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>>
     evaluate_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const;
 
+    /// Displacement gradients [-] in the same way.
+    std::vector<dealii::Tensor<2, dim>>
+    gradients_in_cells(const std::vector<dealii::Point<dim>> &point_of_cell) const;
+
     /// Force [N] that the supports exert on the body through a boundary, along held components. An edge
     /// shared by two boundaries counts for both. Collective.
     dealii::Tensor<1, dim> reaction(const dealii::types::boundary_id boundary) const;

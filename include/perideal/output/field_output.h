@@ -3,14 +3,11 @@
 #define perideal_output_field_output_h
 
 #include <perideal/mesh/mesh.h>
-#include <perideal/nodes/nodes.h>
+#include <perideal/output/field_sink.h>
+#include <perideal/output/output_format.h>
+#include <perideal/output/vtu_text.h>
 
-#include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/base/tensor.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/lac/la_parallel_vector.h>
-#include <deal.II/lac/vector.h>
-
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,35 +24,35 @@ namespace perideal
   };
 
   /**
-   * Writes nodal fields on the cells of the user's own mesh, for ParaView: one
-   * compressed .vtu a step, with the cells of all ranks, and solution.pvd,
-   * which lists the steps with their times and is valid at any moment.
+   * Writes fields on the user's own mesh, for ParaView: a compressed .vtu a step, and solution.pvd, which
+   * lists the steps with their times and is valid at any moment. Fields of nodes are data of cells. Cells
+   * share the points at which they meet, so that fields at points are continuous but for cracks, and a part
+   * that is warped by them has no gaps.
    *
    * A .vtu holds single precision, for visualisation; history and
    * profiles hold all digits.
    */
   template <int dim>
-  class FieldOutput
+  class FieldOutput : public FieldSink<dim>
   {
   public:
     /// Collective. The mesh must live longer and stay as it is.
+    /// @param points of the cells
     /// @throws InputError when the directory cannot be written.
-    FieldOutput(const Mesh<dim>   &mesh,
-                const Nodes<dim>  &nodes,
-                const std::string &directory,
-                const OutputSteps  steps);
+    FieldOutput(const Mesh<dim>                 &mesh,
+                const Nodes<dim>                &nodes,
+                std::unique_ptr<MeshPoints<dim>> points,
+                const std::string               &directory,
+                const OutputSteps                steps,
+                const OutputFormat               format = OutputFormat::vtu);
 
-    /// Takes a vector field, one value for each of this rank's nodes, into the
-    /// next write(). @param name letters, digits and underscores.
-    void add_vector(const std::string &name, const std::vector<dealii::Tensor<1, dim>> &values);
+    /// The points of the cells, which may open between two writes.
+    MeshPoints<dim> *points() override { return mesh_points.get(); }
 
-    /// As add_vector(), for a scalar field.
-    void add_scalar(const std::string &name, const std::vector<double> &values);
-
-    /// As add_vector(), for a symmetric tensor in space: scalars name_xx, name_yy,
-    /// name_zz, name_xy and, in 3-D, name_yz, name_zx. (The tensors of .vtu files have no
-    /// zz in 2-D, which plane strain needs.)
-    void add_tensor(const std::string &name, const std::vector<dealii::SymmetricTensor<2, 3>> &values);
+    /// As FieldSink says, into the next write().
+    void add_at_points(const std::string &name, const std::vector<CornerValues<dim>> &values) override;
+    void add_vector(const std::string &name, const std::vector<dealii::Tensor<1, dim>> &values) override;
+    void add_scalar(const std::string &name, const std::vector<double> &values) override;
 
     /// Goes on with a series of which an earlier run wrote the steps 1, 2, ... at these times [s].
     void resume(const std::vector<double> &times);
@@ -66,24 +63,33 @@ namespace perideal
     void write(const unsigned int step, const double time);
 
   private:
-    using CellVector = dealii::LinearAlgebra::distributed::Vector<double>;
+    using PointField = std::pair<std::string, std::vector<CornerValues<dim>>>;
+    using Corner     = typename MeshPoints<dim>::Corner;
 
+    /// Name of the files of a step, without the end.
+    std::string stem(const unsigned int step) const;
     std::string filename(const unsigned int step) const;
-    void        write_vtu(const std::string &path, const unsigned int step, const double time) const;
-    void        list_in_pvd(const std::string &name, const double time);
+    /// Sets coordinates and fields of some points, each by a corner at it.
+    void set_points(const std::vector<Corner> &corners, VtuPiece &piece) const;
+    /// The cells of all ranks, on rank 0. Collective.
+    VtuPiece whole_body() const;
+    /// The cells of this rank.
+    VtuPiece own_cells() const;
+    void     write_vtu(VtuPiece &piece, const std::string &path) const;
+    void     write_pvtu(VtuPiece &piece, const std::string &stem) const;
+    void     list_in_pvd(const std::string &name, const double time);
 
-    const dealii::Triangulation<dim> &triangulation;
-    std::vector<LocalIndex>           node_of_cell;
-    std::string                       directory;
-    OutputSteps                       steps;
-    MPI_Comm                          communicator;
+    /// Nodes of the owned cells, in the order of the cells.
+    std::vector<LocalIndex>          node_of_cell;
+    std::unique_ptr<MeshPoints<dim>> mesh_points;
+    std::string                      directory;
+    OutputSteps                      steps;
+    OutputFormat                     format;
+    MPI_Comm                         communicator;
 
-    /// dim constants a cell: what makes DataOut write true vectors.
-    dealii::DoFHandler<dim> vector_unknowns;
-
-    std::vector<std::pair<std::string, CellVector>>             vectors;
-    std::vector<std::pair<std::string, dealii::Vector<double>>> scalars;
-    std::vector<std::pair<double, std::string>>                 written;
+    std::vector<PointField>                     at_points;
+    std::vector<VtuArray>                       of_cells;
+    std::vector<std::pair<double, std::string>> written;
   };
 } // namespace perideal
 

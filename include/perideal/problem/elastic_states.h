@@ -18,6 +18,12 @@ namespace perideal
   template <int dim>
   NodalVector displacement_of_families(const Problem<dim> &problem);
 
+  /// Returns the state of a deformation: Green's strain, of linear laws the small strain, Cauchy's stress and
+  /// the energy density.
+  /// @param gradient of the displacement [-]
+  template <int dim>
+  ElasticState state_by_law(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &gradient);
+
   /// Returns strain and stress of the owned nodes: of the consistent form the means over cells, of
   /// nonlinear statics by a law those of its gradients, of all others from
   /// linear fits to their families (FamilyFit), because their displacement jitters from cell to cell.

@@ -2,7 +2,7 @@
 #ifndef perideal_problem_output_fields_h
 #define perideal_problem_output_fields_h
 
-#include <perideal/output/field_output.h>
+#include <perideal/output/field_sink.h>
 
 #include <string>
 #include <vector>
@@ -15,6 +15,9 @@ namespace perideal
   /// Names that Output/Fields accepts.
   std::vector<std::string> output_field_names();
 
+  /// Unit of a field's values, without brackets; empty: each of them has its own.
+  std::string output_field_unit(const std::string &name);
+
   /// Whether one of the fields is made from the strain of the nodes.
   bool needs_strain(const std::vector<std::string> &names);
 
@@ -23,7 +26,7 @@ namespace perideal
   template <int dim>
   void add_output_fields(const Problem<dim>             &problem,
                          const std::vector<std::string> &names,
-                         FieldOutput<dim>               &output);
+                         FieldSink<dim>                 &output);
 } // namespace perideal
 
 #endif

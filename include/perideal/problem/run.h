@@ -30,6 +30,7 @@ namespace perideal
   struct Run
   {
     Run(const RunContext &context, MPI_Comm communicator);
+    ~Run();
 
     /// Prints a line that begins with "warning", and keeps it for summary.json.
     void warn(const std::string &text);
@@ -38,8 +39,10 @@ namespace perideal
     MPI_Comm         communicator;
     /// Standard output of the first rank.
     dealii::ConditionalOStream screen;
-    Timings                    timings;
-    std::vector<std::string>   warnings;
+    /// Whether that is a terminal, for bars that show how far the run has come.
+    const bool               is_watched;
+    Timings                  timings;
+    std::vector<std::string> warnings;
   };
 } // namespace perideal
 

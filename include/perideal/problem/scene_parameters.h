@@ -9,12 +9,14 @@
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
 #include <perideal/operators/force/contact_force.h>
+#include <perideal/output/output_format.h>
 #include <perideal/output/pictures.h>
 #include <perideal/parameters/areal_force_parameters.h>
 #include <perideal/parameters/gauge_parameters.h>
 #include <perideal/parameters/load_parameters.h>
 #include <perideal/parameters/material_parameters.h>
 #include <perideal/parameters/parameter_file.h>
+#include <perideal/parameters/probe_parameters.h>
 #include <perideal/quadrature/bond_volume.h>
 #include <perideal/solvers/linear_solver.h>
 
@@ -34,6 +36,8 @@ namespace perideal
     std::string name;
     /// Its ends, coordinates [m] separated by commas.
     std::string from, to;
+    /// Points along it, the ends among them, at which values are interpolated.
+    unsigned int points = 101;
   };
 
   /// Of what the finite elements are made that solutions are held against.
@@ -91,6 +95,8 @@ namespace perideal
   {
     /// Steps between two checkpoints; 0: only when the program is asked to stop.
     unsigned int steps = 0;
+    /// Whether there is one at the end, from which a run goes on to a later one.
+    bool at_end = false;
     /// Whether to go on from the last one.
     bool restart = false;
 
@@ -103,10 +109,15 @@ namespace perideal
     int         dimension        = 2;
     std::string output_directory = "output";
     std::string fields           = "displacement";
+    /// Of the files of these fields.
+    OutputFormat format = OutputFormat::vtu;
     /// Boundaries whose stresses are written.
     std::vector<std::string> boundary_stress;
     /// Stress that the largest one is divided by for its concentration [Pa]; 0: not given.
     double nominal_stress = 0.;
+    /// Load steps that leave field files: one number, every so many; several, these; none, all. The last one
+    /// does in any case.
+    std::vector<unsigned int> frame_steps;
     /// Field files of dynamics, and steps between rows of their history.
     unsigned int         frames = 10, history_steps = 10;
     MeshParameters       mesh;
@@ -126,6 +137,7 @@ namespace perideal
     ArealForceParameters areal_forces;
     GaugeParameters      gauges;
     PictureParameters    pictures;
+    ProbeParameters      probes;
     /// What the table of rules warns of, one line each.
     std::vector<std::string> warnings;
 
@@ -133,6 +145,12 @@ namespace perideal
 
     /// Fields to write: those of Output/Fields in the order given, then those of Output/Pictures.
     std::vector<std::string> field_names() const;
+
+    /// Whether a load step leaves a field file.
+    bool has_frame(const std::uint64_t step) const;
+
+    /// Those, and the fields of probes.
+    std::vector<std::string> all_field_names() const;
   };
 
   /// Returns whether bonds of the scene may break.

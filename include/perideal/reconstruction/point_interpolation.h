@@ -3,6 +3,7 @@
 #define perideal_reconstruction_point_interpolation_h
 
 #include <perideal/base/types.h>
+#include <perideal/geometry/bond_predicate.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/cell_graph.h>
 #include <perideal/reconstruction/cell_polynomials.h>
@@ -39,10 +40,12 @@ namespace perideal
     PointInterpolation() = default;
 
     /// All ranks give the same points. Collective.
-    /// @throws InputError naming a point outside the body.
+    /// @param is_cut whether a crack separates two nodes: values behind it do not count; empty: none does
+    /// @throws InputError naming a point outside the body, and the node that is nearest to it.
     PointInterpolation(const Mesh<dim>               &mesh,
                        const CellGraph<dim>          &graph,
-                       const std::vector<NamedPoint> &points);
+                       const std::vector<NamedPoint> &points,
+                       const BondPredicate<dim>      &is_cut = {});
 
     /// The same of fields of means over cells.
     PointInterpolation(const Mesh<dim>               &mesh,

@@ -109,6 +109,8 @@ namespace perideal
     PreconditionerName preconditioner = PreconditionerName::automatic;
     AuxiliaryMesh      auxiliary_mesh = AuxiliaryMesh::automatic;
     unsigned int       load_steps     = 1;
+    /// Number of the last load step; 0: load_steps.
+    unsigned int last_load_step = 0;
     /// What is controlled, a gauge by its name, how far it goes and by which steps [m or J]; 0: chosen.
     LoadControlName control = LoadControlName::loads;
     std::string     control_gauge;
@@ -138,6 +140,12 @@ namespace perideal
     bool is_controlled() const { return is_quasi_static() && control != LoadControlName::loads; }
     /// Equilibria of the nonlinear force.
     bool is_nonlinear_static() const { return is_relaxation() || is_quasi_static(); }
+
+    /// How many load steps there are: of those that are not controlled all up to the last one.
+    unsigned int n_load_steps() const
+    {
+      return is_nonlinear_static() && !is_controlled() && last_load_step > 0 ? last_load_step : load_steps;
+    }
 
     void declare(dealii::ParameterHandler &prm);
     /// @throws InputError on choices that do not go together.

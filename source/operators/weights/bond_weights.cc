@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/base/work_progress.h>
 #include <perideal/operators/weights/bond_weights.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,8 +26,10 @@ namespace perideal
     FamilyView<dim>              view;
     dealii::types::material_id   material = dealii::numbers::invalid_material_id;
     unsigned int                 n_empty  = 0;
+    WorkProgress                 progress("weighing bonds", families->n_owned());
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
+        progress(i);
         // The cursor goes from family to family.
         cursor.find(i, families->begin(i), families->end(i), ends);
         if (!families->is_whole(i))

@@ -16,12 +16,14 @@
 namespace output_test
 {
   /// Contents of the compressed block of a VTK data array: base64 of four
-  /// 32-bit numbers (blocks, block size, last block size, compressed size),
-  /// then base64 of the zlib stream.
+  /// 64-bit numbers (blocks, block size, last block size, compressed size),
+  /// then base64 of the zlib stream; three numbers where there is no block.
   inline std::string decode_data_array(const std::string &base64)
   {
-    constexpr std::size_t header_length = 24;
-    const auto            compressed    = dealii::Utilities::decode_base64(base64.substr(header_length));
+    constexpr std::size_t header_length = 44;
+    if (base64.size() < header_length)
+      return {};
+    const auto compressed = dealii::Utilities::decode_base64(base64.substr(header_length));
 
     boost::iostreams::filtering_istream in;
     in.push(boost::iostreams::zlib_decompressor());
