@@ -322,4 +322,6 @@ set(perideal_sources
   application/rules_solver.cc
   application/rules_treatments.cc
   mesh/mesh_joints.cc
+  application/combinations.cc
+  application/reference.cc
 )
