@@ -323,5 +323,6 @@ set(perideal_sources
   application/rules_treatments.cc
   mesh/mesh_joints.cc
   application/combinations.cc
+  application/new_scene.cc
   application/reference.cc
 )

@@ -8,7 +8,7 @@ namespace perideal
   CommandLine CommandLine::parse(const int argc, const char *const *argv)
   {
     const std::vector<std::string> options = {
-      "--set", "--check", "--parameters", "--rules", "--help", "--version"};
+      "--set", "--check", "--new", "--parameters", "--rules", "--help", "--version"};
     CommandLine result;
     for (int k = 0; k < argc; ++k)
       result.command += (k > 0 ? " " : "") + std::string(argv[k]);
@@ -21,6 +21,8 @@ namespace perideal
           result.action = Action::version;
         else if (word == "--check")
           result.action = Action::check;
+        else if (word == "--new")
+          result.action = Action::new_scene;
         else if (word == "--parameters")
           {
             result.action = Action::print_parameters;
@@ -47,6 +49,12 @@ namespace perideal
             .given(result.scene_file + " and " + word)
             .allowed("one");
       }
+    if (result.action == Action::new_scene && result.scene_file.empty())
+      throw InputError("no mesh file was given").allowed("perideal --new PART.geo | PART.msh");
+    if (result.action == Action::new_scene && !result.overrides.empty())
+      throw InputError("--set changes a run, and --new runs nothing")
+        .allowed("perideal --new PART.geo | PART.msh")
+        .hint("give --set to the run of the scene");
     if (result.scene_file.empty() && (result.action == Action::run || result.action == Action::check))
       throw InputError("no parameter file was given").allowed("perideal FILE.prm; see perideal --help");
     return result;
@@ -61,6 +69,8 @@ namespace perideal
            "linear\n"
            "                                                      statics which mesh would do; write "
            "nothing\n"
+           "  perideal --new PART.geo|PART.msh                    write PART.prm beside it, a scene to start "
+           "from\n"
            "  perideal --parameters [text|prm|markdown|json]      every parameter: default, unit, range, "
            "meaning\n"
            "  perideal --rules                                    which choices go together, as markdown\n"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/command_line.h>
 #include <perideal/application/gate.h>
+#include <perideal/application/new_scene.h>
 #include <perideal/application/read_scene.h>
 #include <perideal/application/rules.h>
 #include <perideal/base/exceptions.h>
@@ -83,6 +84,9 @@ namespace
         break;
       case CommandLine::Action::print_parameters:
         print_parameters(text, command_line.format);
+        break;
+      case CommandLine::Action::new_scene:
+        text << "scene       " << write_new_scene(command_line.scene_file, MPI_COMM_WORLD) << '\n';
         break;
       case CommandLine::Action::print_rules:
         print_rules(text);

@@ -16,10 +16,12 @@ namespace perideal
       check,
       print_parameters,
       print_rules,
+      new_scene,
       help,
       version
     };
-    Action      action = Action::run;
+    Action action = Action::run;
+    /// Of Action::new_scene: the mesh file.
     std::string scene_file;
     /// Texts of --set.
     std::vector<std::string> overrides;
