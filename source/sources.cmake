@@ -342,4 +342,7 @@ set(perideal_sources
   application/rules_treatments.cc
   application/sweep.cc
   mesh/mesh_joints.cc
+  application/combinations.cc
+  application/new_scene.cc
+  application/reference.cc
 )

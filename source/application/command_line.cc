@@ -7,9 +7,17 @@ namespace perideal
 {
   CommandLine CommandLine::parse(const int argc, const char *const *argv)
   {
-    const std::vector<std::string> options = {
-      "--set", "--check", "--plot", "--sweep", "--compare", "--parameters", "--rules", "--help", "--version"};
-    CommandLine result;
+    const std::vector<std::string> options = {"--set",
+                                              "--check",
+                                              "--new",
+                                              "--plot",
+                                              "--sweep",
+                                              "--compare",
+                                              "--parameters",
+                                              "--rules",
+                                              "--help",
+                                              "--version"};
+    CommandLine                    result;
     for (int k = 0; k < argc; ++k)
       result.command += (k > 0 ? " " : "") + std::string(argv[k]);
     for (int k = 1; k < argc; ++k)
@@ -26,6 +34,8 @@ namespace perideal
           result.action = Action::version;
         else if (word == "--check")
           result.action = Action::check;
+        else if (word == "--new")
+          result.action = Action::new_scene;
         else if (word == "--parameters")
           {
             result.action = Action::print_parameters;
@@ -66,6 +76,12 @@ namespace perideal
             .given(result.scene_file + " and " + word)
             .allowed("one");
       }
+    if (result.action == Action::new_scene && result.scene_file.empty())
+      throw InputError("no mesh file was given").allowed("perideal --new PART.geo | PART.msh");
+    if (result.action == Action::new_scene && !result.overrides.empty())
+      throw InputError("--set changes a run, and --new runs nothing")
+        .allowed("perideal --new PART.geo | PART.msh")
+        .hint("give --set to the run of the scene");
     if (result.scene_file.empty() &&
         (result.action == Action::run || result.action == Action::check || result.action == Action::sweep))
       throw InputError("no parameter file was given").allowed("perideal FILE.prm; see perideal --help");
@@ -81,6 +97,8 @@ namespace perideal
            "linear\n"
            "                                                      statics which mesh would do; write "
            "nothing\n"
+           "  perideal --new PART.geo|PART.msh                    write PART.prm beside it, a scene to start "
+           "from\n"
            "  perideal --sweep \"Section/Name=value, value\" FILE.prm [--set ...]\n"
            "                                                      run the scene with each of the values: one "
            "table,\n"
@@ -91,10 +109,9 @@ namespace perideal
            "                                                      draw the run that left its results there: "
            "pictures,\n"
            "                                                      curves, report.html\n"
-           "  perideal --parameters [text|prm|markdown]           every parameter: default, range, unit, "
+           "  perideal --parameters [text|prm|markdown|json]      every parameter: default, unit, range, "
            "meaning\n"
-           "  perideal --rules                                    which choices do not go together, as "
-           "markdown\n"
+           "  perideal --rules                                    which choices go together, as markdown\n"
            "  perideal --help | --version\n"
            "  mpirun -np N perideal FILE.prm                      the same on N cores\n"
            "\n"

@@ -2,6 +2,7 @@
 #include <perideal/application/command_line.h>
 #include <perideal/application/compare.h>
 #include <perideal/application/gate.h>
+#include <perideal/application/new_scene.h>
 #include <perideal/application/plot.h>
 #include <perideal/application/process_scene.h>
 #include <perideal/application/rules.h>
@@ -41,6 +42,9 @@ namespace
         break;
       case CommandLine::Action::print_parameters:
         print_parameters(text, command_line.format);
+        break;
+      case CommandLine::Action::new_scene:
+        text << "scene       " << write_new_scene(command_line.scene_file, MPI_COMM_WORLD) << '\n';
         break;
       case CommandLine::Action::print_rules:
         print_rules(text);

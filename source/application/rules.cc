@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/combinations.h>
 #include <perideal/application/rules.h>
 #include <perideal/base/text.h>
 
@@ -172,8 +173,9 @@ namespace perideal
       out << '\n';
     };
     out
-      << "# Choices that do not go together\n\n"
+      << "# What goes with what\n\n"
          "\"...\" stands for the scene's value; what is automatic counts as what it means for the scene.\n\n";
+    print_combinations(out);
     print(Rule::Severity::refused,
           "## Refused\n\n| parameter | where | message | allowed | advice |\n|---|---|---|---|---|\n");
     print(Rule::Severity::warned, "## Warned of\n\n| parameter | where | message |\n|---|---|---|\n");

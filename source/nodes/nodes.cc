@@ -67,7 +67,7 @@ namespace perideal
     prm.add_parameter("Horizon factor",
                       horizon_factor,
                       "Horizon of a node over its spacing, the edge of the square or cube of its volume; "
-                      "1.5 to 6 make sense; the consistent form of linear statics takes 2.01 [-]",
+                      "1.01 to 20 [-]; the consistent form of linear statics takes 2.01",
                       dealii::Patterns::Double());
     prm.add_parameter("Horizon shape",
                       horizon_shape,

@@ -93,10 +93,13 @@ namespace perideal
                       "Largest dissipated energy of a load step [J]; 0: the fracture energy of one cell "
                       "of the crack in 2-D, of a row of them in 3-D",
                       Double(0));
-    prm.add_parameter("End time", end_time, "When dynamics end, > 0 [s]", Double());
+    prm.add_parameter("End time",
+                      end_time,
+                      "When dynamics end, > 0 [s]; where the solver is dynamics the scene must give it",
+                      Double());
     prm.add_parameter("Time step",
                       time_step,
-                      "Step of dynamics [s]; 0: the largest stable one times Time step safety",
+                      "Step of dynamics >= 0 [s]; 0: the largest stable one times Time step safety",
                       Double());
     prm.add_parameter("Time step safety",
                       time_step_safety,

@@ -142,7 +142,7 @@ def main():
     arguments = parser.parse_args()
     arguments.show = arguments.show or arguments.case is not None
     began = time.monotonic()
-    listed = subprocess.run([arguments.program, "--parameters", "markdown"], capture_output=True, text=True, check=True,
+    listed = subprocess.run([arguments.program, "--parameters", "json"], capture_output=True, text=True, check=True,
                             env=environment()).stdout
     known = parameters(listed)
     if len(known) < 100:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Wrong inputs by chance: each generator makes files and a command line from a random number generator."""
 
-import re
+import json
 
 STATIC = """set Dimension = 2
 set Output directory = output
@@ -96,16 +96,13 @@ def square(version):
     return lines + ["$EndElements"]
 
 
-def parameters(markdown):
-    """[(path, pattern, default)] of what --parameters markdown lists; names that the user gives are a and b."""
-    result, section = [], ""
-    for line in markdown.splitlines():
-        if line.startswith("## "):
-            section = "" if line == "## Top of the file" else line[3:] + "/"
-        match = re.match(r"\| `([^`]*)` \| (.*?) ?\| \[(.*?)\] \|", line)
-        if match:
-            path = (section + match.group(1)).replace("Boundary conditions/ANY NAME", "Boundary conditions/b")
-            result.append((path.replace("ANY NAME", "a").replace("PHYSICAL GROUP", "plate"), match.group(3).replace("\\|", "|"), match.group(2)))
+def parameters(listed):
+    """[(path, kind, choices)] of what --parameters json lists; names that the user gives are a and b."""
+    result = []
+    for entry in json.loads(listed):
+        path = entry["path"].replace("Boundary conditions/ANY NAME", "Boundary conditions/b")
+        choices = ["true", "false"] if entry["kind"] == "boolean" else entry["choices"]
+        result.append((path.replace("ANY NAME", "a").replace("PHYSICAL GROUP", "plate"), entry["kind"], choices))
     return result
 
 
@@ -114,14 +111,14 @@ def plain(text):
     return {"files": {"case.prm": text.encode(), "part.msh": "\n".join(square("2.2")).encode() + b"\n"}, "set": [], "check": False}
 
 
-def hostile(random, pattern, path):
-    """A text for a parameter of this pattern."""
-    if pattern.startswith("Integer") or path in ("Mesh/Cells",):
+def hostile(random, kind, choices, path):
+    """A text for a parameter of this kind."""
+    if kind == "whole number" or path in ("Mesh/Cells",):
         return random.choice(COUNTS)
     if path == "Output directory":
         return random.choice(["", " ", "a" * 300, "/dev/null/x", "/proc/x", "case.prm", "x/y/z", "o p", "\u00e9"])
-    if pattern.startswith("Selection") and random.random() < 0.7:
-        return random.choice(pattern[len("Selection"):].strip().split("|"))
+    if kind == "choice" and random.random() < 0.7:
+        return random.choice(choices)
     return random.choice(HOSTILE)
 
 
@@ -129,8 +126,8 @@ def value(random, known):
     """A hostile value of one parameter, sometimes of two."""
     case = plain(random.choice(SCENES))
     for _ in range(random.choice((1, 1, 1, 2))):
-        path, pattern, _ = random.choice(known)
-        text = hostile(random, pattern, path)
+        path, kind, choices = random.choice(known)
+        text = hostile(random, kind, choices, path)
         if path in LONG and text in ("1e-300", "1e300", "inf", "1e6", "1e-9, 1e-9", "99999999999999999999", "2147483648"):
             text = "-1"
         case["set"].append(f"{path}={text}")
@@ -141,9 +138,9 @@ def value(random, known):
 def pair(random, known):
     """Two or three choices that need not go together."""
     case = plain(random.choice(SCENES))
-    selections = [(path, pattern) for path, pattern, _ in known if pattern.startswith(("Selection", "Bool")) and "plate/" not in path]
-    for path, pattern in random.sample(selections, random.choice((2, 2, 3))):
-        choice = random.choice(pattern[len("Selection"):].strip().split("|") if pattern.startswith("Selection") else ["true", "false"])
+    selections = [(path, choices) for path, _, choices in known if choices and "plate/" not in path]
+    for path, choices in random.sample(selections, random.choice((2, 2, 3))):
+        choice = random.choice(choices)
         case["set"].append(f"{path}={choice}")
     return case
 

@@ -11,6 +11,7 @@ Wrong are: a signal, no end within the time, words that are not ours, and an err
 
 import argparse
 import concurrent.futures
+import json
 import re
 import subprocess
 import sys
@@ -31,19 +32,9 @@ MOTION = ["Solver/Name=dynamics", "Material/Form=energy", "Solver/End time=1e-5"
 
 def numbers(program):
     """Paths of the parameters that are numbers, but for those of subsections that a user names."""
-    listing = subprocess.run([program, "--parameters", "prm"], capture_output=True, text=True, check=True).stdout
-    section, found = [], []
-    for line in listing.splitlines():
-        line = line.split("#")[0].strip()
-        if line.startswith("subsection "):
-            section.append(line[len("subsection "):])
-        elif line == "end":
-            section.pop()
-        elif line.startswith("set "):
-            name, _, value = line[len("set "):].partition("=")
-            if re.fullmatch(r"[-+0-9.e]+", value.strip()) and not any(part.isupper() for part in section):
-                found.append("/".join([*section, name.strip()]))
-    return found
+    listing = subprocess.run([program, "--parameters", "json"], capture_output=True, text=True, check=True).stdout
+    return [entry["path"] for entry in json.loads(listing)
+            if entry["kind"] in ("number", "whole number") and not any(part.isupper() for part in entry["path"].split("/"))]
 
 
 def run_case(case, arguments):

@@ -57,7 +57,7 @@ def listed_scene(program, folder):
     (folder / "listed.prm").write_text(listing, encoding="utf-8")
     condition = "Boundary conditions/ANY NAME/"
     load = "Point loads/ANY NAME/"
-    values = ["Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
+    values = ["Material/Young modulus=1e9", "Material/Poisson ratio=0.3", "Material/Density=1000", "Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
               load + "Point=1, 0.5", load + "F_x=1",
               "Comparison/ANY NAME/From=0, 0.5", "Comparison/ANY NAME/To=1, 0.5",
               "Solver/Name=dynamics", "Solver/End time=1e-4",
@@ -167,7 +167,8 @@ def main():
                  (["--parameters", "text"], ["Horizon factor"]),
                  (["--parameters", "prm"], ["set Horizon factor", "subsection Nodes"]),
                  (["--parameters", "markdown"], ["Horizon factor", "|"]),
-                 (["--rules"], ["## Refused", "mirrored nodes have no cells", "## Without effect", "`Solver/End time`"]),
+                 (["--parameters", "json"], ['"path": "Nodes/Horizon factor"']),
+                 (["--rules"], ["## Accepted", "| bond based |", "## Refused", "mirrored nodes have no cells", "## Without effect", "`Solver/End time`"]),
                  (["--check", arguments.example],
                   checked + ["7,680", "the mesh leaves about 0.004", "some 480 in place of 7,680", "nothing was written"]),
                  (["--check", arguments.example, "--set", "Solver/Name=quasi static", "--set", "Material/Form=energy"], checked + ["nothing was solved"]),

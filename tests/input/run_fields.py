@@ -11,6 +11,7 @@ that a scene may have are written together, with each model and form; then each 
 import argparse
 import concurrent.futures
 import itertools
+import json
 import re
 import sys
 import tempfile
@@ -72,10 +73,9 @@ FOREIGN = ("terminate called", "Stacktrace", "An error occurred", "HDF5-DIAG", "
 
 
 def field_names(program):
-    text = run(program, "--parameters", "markdown")[1]
-    line = next(line for line in text.splitlines() if line.startswith("| `Fields`") and "solution.vtu" in line)
-    listed = line.split("separated by commas: ")[1].split(". ")[0]
-    return [name.strip() for name in listed.split("\\|")]
+    entries = json.loads(run(program, "--parameters", "json")[1])
+    meaning = next(entry["meaning"] for entry in entries if entry["path"] == "Output/Fields")
+    return [name.strip() for name in meaning.split("separated by commas: ")[1].split(". ")[0].split("|")]
 
 
 def forms(program):

@@ -11,6 +11,7 @@ Rules.RefuseWhateverIsRefusedOfAllPairs; here a sample of them builds the scene 
 import argparse
 import concurrent.futures
 import itertools
+import json
 import os
 import random
 import re
@@ -72,19 +73,14 @@ def run(program, *arguments, folder="."):
 
 def choices(program):
     """{path: [value]} of all selections outside of sections that the user names."""
-    result, section = {}, ""
-    for line in run(program, "--parameters", "markdown")[1].splitlines():
-        if line.startswith("## "):
-            section = "" if line == "## Top of the file" else line[3:] + "/"
-        match = re.match(r"\| `([^`]*)` \|.*?\| \[Selection (.*?) ?\] \|", line)
-        if match and not any(name in section for name in ("ANY NAME", "PHYSICAL GROUP")):
-            result[section + match.group(1)] = match.group(2).replace("\\|", "|").split("|")
-    return result
+    entries = json.loads(run(program, "--parameters", "json")[1])
+    return {entry["path"]: entry["choices"] for entry in entries
+            if entry["choices"] and not any(name in entry["path"] for name in ("ANY NAME", "PHYSICAL GROUP"))}
 
 
 def messages(program):
     """Patterns of the messages of all rules that refuse."""
-    table = run(program, "--rules")[1].split("## Warned of")[0]
+    table = run(program, "--rules")[1].split("## Refused")[1].split("## Warned of")[0]
     rows = [re.split(r"(?<!\\) \| ", line) for line in table.splitlines() if line.startswith("| `")]
     return [re.compile(re.escape(row[2].replace("\\|", "|")).replace(r"\.\.\.", ".*")) for row in rows]
 

@@ -19,10 +19,12 @@ namespace perideal
       compare,
       print_parameters,
       print_rules,
+      new_scene,
       help,
       version
     };
-    Action      action = Action::run;
+    Action action = Action::run;
+    /// Of Action::new_scene: the mesh file.
     std::string scene_file;
     /// Texts of --set.
     std::vector<std::string> overrides;
