@@ -15,5 +15,7 @@ configure_package_config_file(perideal-config.cmake.in ${PROJECT_BINARY_DIR}/per
   INSTALL_DESTINATION ${config_directory})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/perideal-config-version.cmake
   COMPATIBILITY SameMinorVersion)
+# The build folder serves find_package() as well: -Dperideal_DIR=BUILD.
+export(EXPORT perideal-targets NAMESPACE perideal:: FILE ${PROJECT_BINARY_DIR}/perideal-targets.cmake)
 install(FILES ${PROJECT_BINARY_DIR}/perideal-config.cmake ${PROJECT_BINARY_DIR}/perideal-config-version.cmake
   DESTINATION ${config_directory})

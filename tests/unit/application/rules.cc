@@ -281,7 +281,7 @@ TEST(Rules, ArePrintedAsATable)
     }
   std::ostringstream out;
   print_rules(out);
-  for (const char *words : {"| extended ordinary | consistent | S |",
+  for (const char *words : {"| tensor involved | surface cure | S |",
                             "| `Quadrature/Scheme` |",
                             "mirrored nodes have no cells",
                             "`Solver/End time`",
