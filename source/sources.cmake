@@ -7,6 +7,7 @@
 # own.
 set(perideal_sources
   base/exceptions.cc
+  base/find_file.cc
   base/finite.cc
   base/hdf5.cc
   base/input_errors.cc
@@ -29,6 +30,7 @@ set(perideal_sources
   parameters/hyperelastic_law.cc
   parameters/linear_elastic.cc
   parameters/load_parameters.cc
+  parameters/loads.cc
   parameters/make_solid.cc
   parameters/material_parameters.cc
   parameters/neo_hookean.cc
@@ -38,6 +40,8 @@ set(perideal_sources
   parameters/softening.cc
   parameters/space_time_function.cc
   parameters/stress_criteria.cc
+  parameters/table_calls.cc
+  parameters/tables.cc
 
   geometry/body_rays.cc
   geometry/cell_in_ball.cc
