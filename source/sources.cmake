@@ -8,6 +8,7 @@
 set(perideal_sources
   base/child_process.cc
   base/exceptions.cc
+  base/find_file.cc
   base/finite.cc
   base/hdf5.cc
   base/input_errors.cc
@@ -32,6 +33,7 @@ set(perideal_sources
   parameters/hyperelastic_law.cc
   parameters/linear_elastic.cc
   parameters/load_parameters.cc
+  parameters/loads.cc
   parameters/make_solid.cc
   parameters/material_parameters.cc
   parameters/neo_hookean.cc
@@ -42,6 +44,8 @@ set(perideal_sources
   parameters/softening.cc
   parameters/space_time_function.cc
   parameters/stress_criteria.cc
+  parameters/table_calls.cc
+  parameters/tables.cc
 
   geometry/body_rays.cc
   geometry/cell_in_ball.cc

@@ -42,9 +42,8 @@ namespace perideal
 
     /// Parameters with only one of a list of conditions, loads or the like.
     template <typename Parameters, typename Text>
-    Parameters only(std::vector<Text> Parameters::*list, const Text &text)
+    Parameters only(std::vector<Text> Parameters::*list, const Text &text, Parameters result = Parameters())
     {
-      Parameters result;
       (result.*list).push_back(text);
       return result;
     }
@@ -53,11 +52,12 @@ namespace perideal
     template <int dim>
     void read_formulas(const std::array<std::string, 3> &formulas,
                        const std::string                &prefix,
+                       const Tables                     &tables,
                        InputErrorCollector              &mistakes)
     {
       const char *const axes[] = {"x", "y", "z"};
       for (int d = 0; d < dim; ++d)
-        mistakes.collect([&] { SpaceTimeFunction<dim>(formulas[d], prefix + axes[d]); });
+        mistakes.collect([&] { SpaceTimeFunction<dim>(formulas[d], prefix + axes[d], tables); });
     }
 
     /// Constants without which there is no material: what they default to is nobody's.
@@ -106,15 +106,17 @@ namespace perideal
     template <int dim>
     void read_texts(const SceneParameters &scene, InputErrorCollector &mistakes)
     {
+      LoadParameters none;
+      none.tables.tables = scene.loads.tables.tables;
       for (const auto &text : scene.loads.conditions)
-        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::conditions, text)); });
+        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::conditions, text, none)); });
       for (const auto &text : scene.loads.point_loads)
-        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::point_loads, text)); });
-      LoadParameters body;
-      body.body_force = scene.loads.body_force;
+        mistakes.collect([&] { Loads<dim>(only(&LoadParameters::point_loads, text, none)); });
+      LoadParameters body = none;
+      body.body_force     = scene.loads.body_force;
       mistakes.collect([&] { Loads<dim>{body}; });
-      read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", mistakes);
-      read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", mistakes);
+      read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", Tables(), mistakes);
+      read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", Tables(), mistakes);
       for (const auto &text : scene.gauges.gauges)
         mistakes.collect([&] { read_gauges<dim>(only(&GaugeParameters::gauges, text)); });
       for (const auto &probe : scene.probes.probes)
@@ -218,6 +220,7 @@ namespace perideal
     scene.declare(prm, file);
     InputErrorCollector errors, mistakes;
     const auto          not_read = file.apply(prm, errors);
+    scene.loads.tables.read(file.directory(), mistakes);
     check_values(scene, mistakes);
     resolve(scene);
     // What is missing may stand in a line that was not understood.

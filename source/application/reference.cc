@@ -228,6 +228,7 @@ namespace perideal
                                 "Areal force densities",
                                 "Gauges",
                                 "Probes",
+                                "Tables",
                                 "Precracks",
                                 "No-fail zones",
                                 "Comparison",

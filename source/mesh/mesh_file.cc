@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/find_file.h>
 #include <perideal/base/registry.h>
 #include <perideal/mesh/abaqus_to_gmsh.h>
 #include <perideal/mesh/mesh_file.h>
@@ -18,40 +20,6 @@ namespace perideal
     namespace fs = std::filesystem;
 
     const std::vector<std::string> mesh_extensions = {".msh", ".geo", ".inp", ".unv", ".vtk"};
-
-    /// Names of the mesh files beside a missing one.
-    std::vector<std::string> mesh_files_in(const fs::path &directory)
-    {
-      std::vector<std::string> names;
-      std::error_code          ignored;
-      for (const auto &entry : fs::directory_iterator(directory.empty() ? "." : directory, ignored))
-        if (std::find(mesh_extensions.begin(), mesh_extensions.end(), entry.path().extension()) !=
-            mesh_extensions.end())
-          names.push_back(entry.path().filename().string());
-      return names;
-    }
-
-    fs::path find_mesh_file(const std::string &filename, const std::string &scene_directory)
-    {
-      const fs::path              path(filename), beside_scene = fs::path(scene_directory) / path;
-      const std::vector<fs::path> candidates = path.is_absolute() || beside_scene == path ?
-                                                 std::vector<fs::path>{path} :
-                                                 std::vector<fs::path>{path, beside_scene};
-      std::error_code             ignored;
-      for (const fs::path &candidate : candidates)
-        if (fs::is_regular_file(candidate, ignored))
-          return candidate;
-
-      std::vector<std::string> tried, present;
-      for (const fs::path &candidate : candidates)
-        {
-          tried.push_back(candidate.string());
-          for (const std::string &name : mesh_files_in(candidate.parent_path()))
-            present.push_back(name);
-        }
-      throw InputError("there is no such mesh file: " + join_choices(tried))
-        .nearest(nearest_name(path.filename().string(), present));
-    }
 
     /// Whether a `.msh` file needs to be converted: it is binary, or in another format than 2.2 and 4.1. What
     /// is no such file at all is told by the one who reads it.
@@ -79,7 +47,7 @@ namespace perideal
                   const int          dim,
                   const double       gmsh_time_limit)
     {
-      const fs::path    path      = find_mesh_file(filename, scene_directory);
+      const fs::path    path      = find_file(filename, scene_directory, "mesh file", mesh_extensions);
       const std::string extension = path.extension().string();
       if (extension == ".geo")
         return {path.string(), run_gmsh(path.string(), dim, gmsh_time_limit)};

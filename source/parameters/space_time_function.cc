@@ -4,6 +4,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/base/registry.h>
 #include <perideal/parameters/space_time_function.h>
+#include <perideal/parameters/table_calls.h>
 
 #include <deal.II/base/mu_parser_internal.h>
 #include <deal.II/base/numbers.h>
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
+#include <limits>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -41,24 +44,6 @@ namespace perideal
       std::ostringstream caught;
       std::streambuf    *original;
     };
-
-    bool begins_name(const char letter)
-    {
-      return std::isalpha(static_cast<unsigned char>(letter)) != 0 || letter == '_';
-    }
-
-    /// The names in a formula, each with the position behind it.
-    std::vector<std::pair<std::string, std::size_t>> names_in(const std::string &expression)
-    {
-      static const std::regex number_or_name(
-        "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?|([A-Za-z_]\\w*)");
-      std::vector<std::pair<std::string, std::size_t>> names;
-      for (std::sregex_iterator word(expression.begin(), expression.end(), number_or_name), end; word != end;
-           ++word)
-        if (begins_name(word->str().front()))
-          names.emplace_back(word->str(), word->position() + word->length());
-      return names;
-    }
 
     /// The functions of muParser and those that deal.II adds.
     std::vector<std::string> function_names()
@@ -130,11 +115,14 @@ namespace perideal
     /// Why muParser does not understand a formula of these variables.
     InputError why_wrong(const std::string              &expression,
                          const std::vector<std::string> &variables,
+                         const Tables                   &tables,
                          const std::string              &caught)
     {
       std::vector<std::string> known = variables, functions = function_names();
       known.emplace_back("pi");
       known.insert(known.end(), functions.begin(), functions.end());
+      for (const auto &table : tables)
+        known.push_back(table.first);
       for (const auto &name : names_in(expression))
         if (std::find(known.begin(), known.end(), name.first) == known.end())
           return InputError("this formula is wrong: it has no " + name.first)
@@ -144,8 +132,34 @@ namespace perideal
     }
   } // namespace
 
+  std::vector<std::string> names_in_formulas()
+  {
+    std::vector<std::string> names = function_names();
+    names.insert(names.end(), {"x", "y", "z", "t", "pi"});
+    return names;
+  }
+
   template <int dim>
-  SpaceTimeFunction<dim>::SpaceTimeFunction(const std::string &expression, const std::string &parameter)
+  struct SpaceTimeFunction<dim>::CalledTables
+  {
+    struct Call
+    {
+      std::string            name, constant;
+      Table                  table;
+      SpaceTimeFunction<dim> argument;
+
+      double time_at(const double time) const { return argument.value(dealii::Point<dim>(), time); }
+    };
+    std::vector<Call> calls;
+    /// The formula with constants in the place of tables, and the time for which the function has these.
+    std::string expression;
+    double      time = std::numeric_limits<double>::quiet_NaN();
+  };
+
+  template <int dim>
+  SpaceTimeFunction<dim>::SpaceTimeFunction(const std::string &expression,
+                                            const std::string &parameter,
+                                            const Tables      &tables)
     : parameter(parameter)
     , expression(expression)
   {
@@ -160,13 +174,15 @@ namespace perideal
         .given(expression)
         .allowed(allowed)
         .hint("numbers are written with a decimal point, such as 1.5e6; conditions as (x < 0.5 ? 1 : 2)");
+    call_tables(tables);
     // deal.II reports what muParser found on the error stream; there it would
     // stand beside our own message.
     const CaughtErrorStream caught;
     try
       {
         function = std::make_shared<dealii::FunctionParser<dim>>(1);
-        function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, true);
+        if (!called)
+          function->initialize(variables, expression, {{"pi", dealii::numbers::PI}}, true);
         // muParser reports mistakes at the first evaluation only; a point with
         // no special coordinates keeps clear of poles such as 1/x.
         dealii::Point<dim> point;
@@ -176,10 +192,63 @@ namespace perideal
       }
     catch (const dealii::ExceptionBase &)
       {
-        throw why_wrong(expression, dealii::Utilities::split_string_list(variables), caught.text())
+        throw why_wrong(expression, dealii::Utilities::split_string_list(variables), tables, caught.text())
           .parameter(parameter)
           .given(expression)
           .allowed(allowed);
+      }
+  }
+
+  template <int dim>
+  void SpaceTimeFunction<dim>::call_tables(const Tables &tables)
+  {
+    std::vector<TableCall> calls;
+    std::string            replaced;
+    try
+      {
+        replaced = replace_table_calls(expression, tables, calls);
+      }
+    catch (InputError &error)
+      {
+        throw error.parameter(parameter).given(expression);
+      }
+    if (calls.empty())
+      return;
+    called             = std::make_shared<CalledTables>();
+    called->expression = replaced;
+    for (const TableCall &call : calls)
+      {
+        called->calls.push_back({call.name,
+                                 call.constant,
+                                 tables.at(call.name),
+                                 SpaceTimeFunction<dim>(call.argument, parameter, tables)});
+        if (!called->calls.back().argument.is_present())
+          throw InputError("this formula is wrong: the table " + call.name + " stands in it without a time")
+            .parameter(parameter)
+            .given(expression)
+            .hint("write " + call.name + "(t)");
+      }
+  }
+
+  template <int dim>
+  void SpaceTimeFunction<dim>::check_tables(const double time) const
+  {
+    if (!called)
+      return;
+    for (const auto &call : called->calls)
+      {
+        call.argument.check_tables(time);
+        if (const double at = call.time_at(time); !call.table.covers(at))
+          {
+            std::ostringstream where;
+            where << "the table " << call.name << " has no value at " << at << " s, for which t = " << time
+                  << " s asks";
+            throw InputError(where.str())
+              .parameter(parameter)
+              .given(expression)
+              .allowed("times " + call.table.range())
+              .hint("add lines to its file, or set Tables/" + call.name + "/Outside = hold");
+          }
       }
   }
 
@@ -206,6 +275,14 @@ namespace perideal
   template <int dim>
   double SpaceTimeFunction<dim>::evaluate(const dealii::Point<dim> &point, const double time) const
   {
+    if (called && called->time != time)
+      {
+        std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
+        for (const auto &call : called->calls)
+          constants[call.constant] = call.table.value(call.time_at(time));
+        function->initialize(dim == 2 ? "x,y,t" : "x,y,z,t", called->expression, constants, true);
+        called->time = time;
+      }
     function->set_time(time);
     return function->value(point);
   }

@@ -61,6 +61,9 @@ namespace perideal
   template <int dim>
   void Loading<dim>::check_finite(const double time) const
   {
+    const SolverParameters &solver = body.parameters.solver;
+    loads.check_tables(solver.is_dynamic() ? 0. : 1. / solver.load_steps);
+    loads.check_tables(time);
     perideal::check_finite(body.faces, loads, time, body.nodes->communicator);
     supports->held().check_finite(loads, time, body.nodes->communicator);
   }

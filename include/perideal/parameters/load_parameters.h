@@ -109,7 +109,7 @@ namespace perideal
     std::array<std::string, 3> force;
   };
 
-  /// Sections "Boundary conditions", "Point loads" and "Body force", as text.
+  /// Sections "Tables", "Boundary conditions", "Point loads" and "Body force", as text.
   struct LoadParameters
   {
     Treatment             treatment              = Treatment::automatic;
@@ -124,6 +124,9 @@ namespace perideal
     std::vector<PointLoadText>         point_loads;
     /// Force per volume by component [N/m^3].
     std::array<std::string, 3> body_force;
+
+    /// Section "Tables", for formulas of all sections.
+    TableParameters tables;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);
 
@@ -210,6 +213,9 @@ namespace perideal
     explicit Loads(const LoadParameters &parameters);
     Loads() = default;
 
+    /// @throws InputError where a table has no value at a time [s].
+    void check_tables(const double time) const;
+
     /// Whether tractions, pressures, point loads or body forces change with t.
     bool forces_depend_on_time() const;
 
@@ -225,8 +231,8 @@ namespace perideal
     /// Whether the scene gives one.
     bool has_body_force() const
     {
-      return std::any_of(
-        body_force.begin(), body_force.end(), [](const auto &component) { return component.is_present(); });
+      const auto is_given = [](const auto &component) { return component.is_present(); };
+      return std::any_of(body_force.begin(), body_force.end(), is_given);
     }
   };
 } // namespace perideal

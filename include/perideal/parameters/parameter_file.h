@@ -51,6 +51,9 @@ namespace perideal
     /// @throws InputError when the text has not this form.
     void override_with(const std::string &text);
 
+    /// The directory in which the file lies, with a '/' behind it; empty where that is the current one.
+    std::string directory() const { return filename.substr(0, filename.rfind('/') + 1); }
+
     /// Names of the subsections directly below @p section, in file order.
     std::vector<std::string> subsections(const std::string &section) const;
 
