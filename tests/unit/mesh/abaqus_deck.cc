@@ -120,7 +120,7 @@ TEST(AbaqusDeck, RefusesWhatIsNoMesh)
   const auto refused = [](const std::string &text, const std::vector<std::string> &words) {
     expect_input_error([&] { read_deck<2>(text); }, words);
   };
-  refused(squares + "*ELEMENT, TYPE=CPS8\n1,1,2,3,4,5,6,1,2\n", {"deck.inp:20", "CPS8"});
+  refused(squares + "*ELEMENT, TYPE=CPS8\n1,1,2,3,4,5,6,1,2\n", {"deck.inp:18", "CPS8"});
   refused(squares + "*ELEMENT, TYPE=CPS4\n30, 1, 2, 3\n", {"has 4 nodes, this one 3"});
   refused(squares + "*ELEMENT, TYPE=CPS4\n10, 1, 2, 3, 4\n", {"element 10 is given twice"});
   refused(squares + "*NODE\n1, 0, 0\n", {"node 1 is given twice"});
