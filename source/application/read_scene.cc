@@ -79,9 +79,9 @@ namespace perideal
                                               "a number between -1 and 0.5, such as 0.3 for steel",
                                               isotropic && !scene.model.model->poisson_ratio},
                                              {"Density",
-                                              "the scene gives no density, and inertia needs it",
+                                              "the scene gives no density, and inertia or gravity needs it",
                                               "a number > 0 [kg/m^3], such as 7850 for steel",
-                                              scene.solver.is_dynamic()}};
+                                              scene.solver.is_dynamic() || !scene.loads.gravity.empty()}};
         std::vector<InputError> missing;
         for (const Constant &constant : constants)
           if (constant.is_needed && !file.gives(section + "/" + constant.name) &&
@@ -114,6 +114,7 @@ namespace perideal
         mistakes.collect([&] { Loads<dim>(only(&LoadParameters::point_loads, text, none)); });
       LoadParameters body = none;
       body.body_force     = scene.loads.body_force;
+      body.gravity        = scene.loads.gravity;
       mistakes.collect([&] { Loads<dim>{body}; });
       read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", Tables(), mistakes);
       read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", Tables(), mistakes);

@@ -14,7 +14,7 @@ namespace perideal
   {
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        const auto body_force = loads.body_force_at(nodes.position[i], time);
+        const auto body_force = loads.body_force_at(nodes.position[i], time, nodes.material[i]);
         for (int d = 0; d < dim; ++d)
           force.local_element(dim * i + d) = body_force[d] * nodes.volume[i];
       }
@@ -39,7 +39,8 @@ namespace perideal
           for (const unsigned int q : values.quadrature_point_indices())
             {
               const auto &point = values.quadrature_point(q);
-              const auto  force = mesh.thickness * values.JxW(q) * loads.body_force_at(point, time);
+              const auto  force =
+                mesh.thickness * values.JxW(q) * loads.body_force_at(point, time, cell->material_id());
               result[i].force += force;
               result[i].moment += outer_product(force, point - about[i]);
             }

@@ -19,8 +19,7 @@ namespace perideal
         for (unsigned int k = 0; k < n_conditions; ++k)
           if (loads.conditions[k].acts_on(points[p].boundary))
             for (int d = 0; d < dim; ++d)
-              if (loads.conditions[k].displacement[d].is_present() ||
-                  loads.conditions[k].velocity[d].is_present())
+              if (loads.conditions[k].holds(d))
                 entry.condition[d] = k;
         if (std::any_of(
               entry.condition.begin(), entry.condition.end(), [](const auto k) { return k != free; }))
@@ -99,7 +98,7 @@ namespace perideal
     for (std::size_t e = 0; e < list.size(); ++e)
       for (int d = 0; d < dim; ++d)
         if (list[e].condition[d] != free)
-          result[list[e].condition[d]][d] += forces[e][d];
+          result[list[e].condition[d]][d] += forces[e][d] - (borne.empty() ? 0. : borne[e][d]);
     for (auto &sum : result)
       sum = dealii::Utilities::MPI::sum(sum, communicator);
     return result;

@@ -78,8 +78,9 @@ namespace perideal
         const double weight = 1. / (1. + face.centre.distance_square(graph.position[k]) / (size * size));
         for (unsigned int d = 0; d < dim; ++d)
           fit.add_displacement(graph.position[k], d, displacement[k][d], weight);
-        fit.add_equilibrium(
-          graph.position[k], loads.body_force_at(graph.position[k], time), equilibrium_weight);
+        fit.add_equilibrium(graph.position[k],
+                            loads.body_force_at(graph.position[k], time, graph.material[k]),
+                            equilibrium_weight);
         for (std::size_t f = first_face[k]; f < first_face[k + 1]; ++f)
           add_conditions(faces[f], time, &faces[f] == &face ? own_face_weight : other_face_weight, fit);
       }

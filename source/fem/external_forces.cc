@@ -10,9 +10,7 @@ namespace perideal
   template <int dim>
   ExternalForces<dim>::ExternalForces(const Mesh<dim> &mesh, const Loads<dim> &loads)
     : loads(loads)
-    , has_body_force(std::any_of(loads.body_force.begin(),
-                                 loads.body_force.end(),
-                                 [](const SpaceTimeFunction<dim> &force) { return force.is_present(); }))
+    , has_body_force(loads.has_body_force())
   {
     for (const BoundaryCondition<dim> &condition : loads.conditions)
       if (condition.prescribes_traction())
@@ -48,7 +46,11 @@ namespace perideal
   {
     if (has_body_force)
       integrals.add_body_force(
-        cell, [&](const dealii::Point<dim> &point) { return loads.body_force_at(point, time); }, forces);
+        cell,
+        [&](const dealii::Point<dim> &point) {
+          return loads.body_force_at(point, time, cell->material_id());
+        },
+        forces);
     if (!tractions.empty() && cell->at_boundary())
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary())

@@ -101,6 +101,10 @@ namespace perideal
                         body_force[d],
                         "Force per volume along " + axes[d] +
                           " [N/m^3], a formula in x, y, z, t; empty: none");
+    prm.add_parameter("Gravity",
+                      gravity,
+                      "Acceleration of gravity by component [m/s^2], such as 0, -9.81; each may be a formula "
+                      "in x, y, z, t. The body weighs by it, each material by its Density; empty: none");
     prm.leave_subsection();
   }
 } // namespace perideal

@@ -86,6 +86,43 @@ namespace perideal
       return result;
     }
 
+    /// Splits at the commas that stand in no parentheses.
+    std::vector<std::string> split_formulas(const std::string &list)
+    {
+      std::vector<std::string> result(1);
+      int                      depth = 0;
+      for (const char letter : list)
+        {
+          depth += letter == '(' ? 1 : letter == ')' ? -1 : 0;
+          if (letter == ',' && depth == 0)
+            result.emplace_back();
+          else
+            result.back() += letter;
+        }
+      for (std::string &formula : result)
+        formula = dealii::Utilities::trim(formula);
+      return result;
+    }
+
+    template <int dim>
+    std::array<SpaceTimeFunction<dim>, dim> make_gravity(const LoadParameters &parameters)
+    {
+      std::array<SpaceTimeFunction<dim>, dim> result;
+      if (parameters.gravity.empty())
+        return result;
+      const std::string path     = "Body force/Gravity";
+      const auto        formulas = split_formulas(parameters.gravity);
+      if (formulas.size() != dim ||
+          std::any_of(formulas.begin(), formulas.end(), [](const auto &f) { return f.empty(); }))
+        throw InputError("gravity needs a component for each direction of the scene")
+          .parameter(path)
+          .allowed(std::to_string(dim) + " accelerations [m/s^2], separated by commas, such as " +
+                   (dim == 2 ? "0, -9.81" : "0, 0, -9.81"));
+      for (int d = 0; d < dim; ++d)
+        result[d] = SpaceTimeFunction<dim>(formulas[d], path, parameters.tables.tables);
+      return result;
+    }
+
     template <int dim>
     PointLoad<dim> make_point_load(const PointLoadText &text, const Tables &tables)
     {
@@ -131,6 +168,7 @@ namespace perideal
         function.check_tables(time);
     };
     check(body_force);
+    check(gravity);
     for (const PointLoad<dim> &load : point_loads)
       check(load.force);
     for (const BoundaryCondition<dim> &condition : conditions)
@@ -149,7 +187,7 @@ namespace perideal
       return std::any_of(
         functions.begin(), functions.end(), [](const auto &f) { return f.depends_on_time(); });
     };
-    return changes(body_force) ||
+    return changes(body_force) || changes(gravity) ||
            std::any_of(
              point_loads.begin(), point_loads.end(), [&](const auto &load) { return changes(load.force); }) ||
            std::any_of(conditions.begin(), conditions.end(), [&](const auto &condition) {
@@ -160,6 +198,7 @@ namespace perideal
   template <int dim>
   Loads<dim>::Loads(const LoadParameters &parameters)
     : body_force(make_components<dim>(parameters.body_force, "Body force/b_", parameters.tables.tables))
+    , gravity(make_gravity<dim>(parameters))
   {
     for (const BoundaryConditionText &text : parameters.conditions)
       conditions.push_back(make_condition<dim>(text, parameters.tables.tables));
@@ -180,9 +219,14 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<1, dim> Loads<dim>::body_force_at(const dealii::Point<dim> &point, const double time) const
+  dealii::Tensor<1, dim> Loads<dim>::body_force_at(const dealii::Point<dim>        &point,
+                                                   const double                     time,
+                                                   const dealii::types::material_id material) const
   {
-    return value_of<dim>(body_force, point, time);
+    auto result = value_of<dim>(body_force, point, time);
+    if (has_gravity())
+      result += densities.at(material) * value_of<dim>(gravity, point, time);
+    return result;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(BoundaryCondition)

@@ -35,7 +35,7 @@ namespace perideal
         "model has one of its own");
       declare("Density",
               properties.density,
-              "Mass density > 0 [kg/m^3], of dynamics, where the scene must give it");
+              "Mass density > 0 [kg/m^3], of dynamics and gravity, where the scene must give it");
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "

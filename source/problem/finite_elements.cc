@@ -73,7 +73,9 @@ namespace perideal
       }
     const Mesh<dim>     &mesh = own_mesh ? *own_mesh : *problem.body.mesh;
     const Timings::Scope scope(problem.run.timings, "reference");
-    ElasticFem<dim>      fem(mesh, problem.loading.loads, 2, comparison.reference_refinements);
+    Loads<dim>           loads = problem.loading.loads;
+    loads.densities            = problem.body.densities_on(mesh);
+    ElasticFem<dim> fem(mesh, loads, 2, comparison.reference_refinements);
     fem.assemble(problem.discretisation.compared_solids(problem.body, mesh), 1.);
     fem.set_up_solver();
     // Far below the discretisation errors that are to be seen.

@@ -100,7 +100,8 @@ namespace perideal
         }
     Resultant<dim> others;
     for (LocalIndex i = 0; i < nodes.size(); ++i)
-      others.add(nodes.position[i], nodes.volume[i] * loads.body_force_at(nodes.position[i], time));
+      others.add(nodes.position[i],
+                 nodes.volume[i] * loads.body_force_at(nodes.position[i], time, nodes.material[i]));
     others = sum_of(others, communicator);
     for (const auto &load : loads.point_loads)
       others.add(load.position, load.force_at(time));

@@ -16,7 +16,8 @@ namespace perideal
   template <int dim>
   void Loading<dim>::read()
   {
-    loads = resolve_boundaries(*body.mesh, Loads<dim>(body.parameters.loads));
+    loads           = resolve_boundaries(*body.mesh, Loads<dim>(body.parameters.loads));
+    loads.densities = body.densities_on(*body.mesh);
   }
 
   template <int dim>
@@ -97,7 +98,7 @@ namespace perideal
         return;
       }
     if (loads.has_body_force())
-      moments->add_body_forces(*body.mesh, *body.nodes, loads, time, force);
+      supports->face_values()->bear(moments->add_body_forces(*body.mesh, *body.nodes, loads, time, force));
   }
 
   template <int dim>
@@ -111,7 +112,8 @@ namespace perideal
                             face.area * Loads<dim>::traction(condition, face.centre, face.normal, 1.));
       });
     for (LocalIndex i = 0; i < nodes.size(); ++i)
-      result.emplace_back(nodes.position[i], nodes.volume[i] * loads.body_force_at(nodes.position[i], 1.));
+      result.emplace_back(nodes.position[i],
+                          nodes.volume[i] * loads.body_force_at(nodes.position[i], 1., nodes.material[i]));
     if (dealii::Utilities::MPI::this_mpi_process(nodes.communicator) == 0)
       for (const auto &load : loads.point_loads)
         result.emplace_back(load.position, load.force_at(1.));

@@ -6,6 +6,7 @@
 #include <perideal/reconstruction/boundary_point.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace perideal
@@ -58,7 +59,11 @@ namespace perideal
     /// The largest increment of this rank [m].
     double largest_increment() const;
 
-    /// Sums by condition of forces on the body [N] at the entries. Collective.
+    /// Takes what of the body force acts on the values [N], by entry.
+    void bear(std::vector<dealii::Tensor<1, dim>> loads) { borne = std::move(loads); }
+
+    /// Sums by condition of forces [N] that move the values of the entries, less what of these comes of body
+    /// forces: what supports do to the body. Collective.
     std::vector<dealii::Tensor<1, dim>> sum_by_condition(const std::vector<dealii::Tensor<1, dim>> &forces,
                                                          MPI_Comm communicator) const;
 
@@ -66,8 +71,9 @@ namespace perideal
     double work(const std::vector<dealii::Tensor<1, dim>> &forces, MPI_Comm communicator) const;
 
   private:
-    std::vector<Entry> list;
-    unsigned int       n_conditions = 0;
+    std::vector<Entry>                  list;
+    std::vector<dealii::Tensor<1, dim>> borne;
+    unsigned int                        n_conditions = 0;
   };
 } // namespace perideal
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,8 @@ namespace perideal
     std::vector<PointLoadText>         point_loads;
     /// Force per volume by component [N/m^3].
     std::array<std::string, 3> body_force;
+    /// Acceleration by component [m/s^2], formulas separated by commas; empty: none.
+    std::string gravity;
 
     /// Section "Tables", for formulas of all sections.
     TableParameters tables;
@@ -206,6 +209,10 @@ namespace perideal
     std::vector<BoundaryCondition<dim>>     conditions;
     std::vector<PointLoad<dim>>             point_loads;
     std::array<SpaceTimeFunction<dim>, dim> body_force;
+    /// Acceleration by which the mass of the body weighs [m/s^2].
+    std::array<SpaceTimeFunction<dim>, dim> gravity;
+    /// Of the cell groups that it acts on [kg/m^3].
+    std::map<dealii::types::material_id, double> densities;
 
     /// @throws InputError on a wrong expression, a z component in 2-D, a
     /// condition that prescribes nothing or both displacement and traction of
@@ -226,14 +233,17 @@ namespace perideal
                                            const dealii::Tensor<1, dim> &normal,
                                            const double                  time);
 
-    /// Body force [N/m^3].
-    dealii::Tensor<1, dim> body_force_at(const dealii::Point<dim> &point, const double time) const;
+    /// Body force, the weight of that material included [N/m^3].
+    dealii::Tensor<1, dim> body_force_at(const dealii::Point<dim>        &point,
+                                         const double                     time,
+                                         const dealii::types::material_id material) const;
     /// Whether the scene gives one.
     bool has_body_force() const
     {
       const auto is_given = [](const auto &component) { return component.is_present(); };
-      return std::any_of(body_force.begin(), body_force.end(), is_given);
+      return has_gravity() || std::any_of(body_force.begin(), body_force.end(), is_given);
     }
+    bool has_gravity() const { return gravity[0].is_present(); }
   };
 } // namespace perideal
 

@@ -10,6 +10,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ namespace perideal
 
     /// Returns the solids of the cell groups of another mesh of the body.
     SolidsByMaterial<dim> solids_on(const Mesh<dim> &mesh) const;
+
+    /// Returns the densities of these groups [kg/m^3].
+    std::map<dealii::types::material_id, double> densities_on(const Mesh<dim> &mesh) const;
 
     const SceneParameters     &parameters;
     std::unique_ptr<Mesh<dim>> mesh;

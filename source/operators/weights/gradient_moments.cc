@@ -201,11 +201,11 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientMoments<dim>::add_body_forces(const Mesh<dim>  &mesh,
-                                             const Nodes<dim> &nodes,
-                                             const Loads<dim> &loads,
-                                             const double      time,
-                                             NodalVector      &force) const
+  std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::add_body_forces(const Mesh<dim>  &mesh,
+                                                                            const Nodes<dim> &nodes,
+                                                                            const Loads<dim> &loads,
+                                                                            const double      time,
+                                                                            NodalVector      &force) const
   {
     CellLoads  on_cells(n_owned_cells);
     const auto integrals = integrate_body_forces(mesh, nodes, polynomials->centroids(), loads, time);
@@ -215,6 +215,7 @@ namespace perideal
         on_cells.gradient[i] = integrals[i].moment;
       }
     add_nodal_forces(on_cells, force);
+    return support_forces();
   }
 
   template <int dim>

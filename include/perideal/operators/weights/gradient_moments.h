@@ -106,11 +106,14 @@ namespace perideal
     void add_nodal_forces(const CellLoads &loads, NodalVector &force) const;
 
     /// Adds the forces on owned nodes that come of the body force [N]. Collective.
-    void add_body_forces(const Mesh<dim>  &mesh,
-                         const Nodes<dim> &nodes,
-                         const Loads<dim> &loads,
-                         const double      time,
-                         NodalVector      &force) const;
+    /// @return what of it acts on the prescribed values instead [N], by entry: in cells at a held boundary
+    /// w_i
+    ///   is made of these too
+    std::vector<dealii::Tensor<1, dim>> add_body_forces(const Mesh<dim>  &mesh,
+                                                        const Nodes<dim> &nodes,
+                                                        const Loads<dim> &loads,
+                                                        const double      time,
+                                                        NodalVector      &force) const;
 
     /// Values of the polynomials at the nodes [m], by owned node, of a displacement of means. Collective.
     std::vector<dealii::Tensor<1, dim>> point_values(const NodalVector &displacement) const;
