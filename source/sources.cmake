@@ -322,6 +322,7 @@ set(perideal_sources
   drivers/dynamics_driver.cc
   drivers/equilibrium_driver.cc
   drivers/failed_step.cc
+  drivers/initial_motion.cc
   drivers/load_control.cc
   drivers/motion_check.cc
   drivers/motion_forces.cc

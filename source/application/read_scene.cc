@@ -116,6 +116,7 @@ namespace perideal
       body.body_force     = scene.loads.body_force;
       body.gravity        = scene.loads.gravity;
       mistakes.collect([&] { Loads<dim>{body}; });
+      read_formulas<dim>(scene.initial.displacement, "Initial conditions/u_", Tables(), mistakes);
       read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", Tables(), mistakes);
       read_formulas<dim>(scene.comparison.exact, "Comparison/Exact u_", Tables(), mistakes);
       for (const auto &text : scene.gauges.gauges)

@@ -24,13 +24,17 @@ namespace perideal
       return result;
     }
 
-    std::vector<std::string> initial_velocities(const Scene &scene)
+    std::vector<std::string> initial_conditions(const Scene &scene)
     {
       std::vector<std::string> result;
       if (!scene.solver.is_dynamic())
         for (unsigned int d = 0; d < 3; ++d)
-          if (!scene.initial.velocity[d].empty())
-            result.push_back(std::string("Initial conditions/v_") + axes[d]);
+          {
+            if (!scene.initial.displacement[d].empty())
+              result.push_back(std::string("Initial conditions/u_") + axes[d]);
+            if (!scene.initial.velocity[d].empty())
+              result.push_back(std::string("Initial conditions/v_") + axes[d]);
+          }
       return result;
     }
 
@@ -179,7 +183,7 @@ namespace perideal
         "0 for Material/Form = consistent",
         "set Solver/Damping"),
       of_dynamics("Boundary conditions/NAME/v_x, v_y, v_z", velocities_of_conditions),
-      of_dynamics("Initial conditions/v_x, v_y, v_z", initial_velocities),
+      of_dynamics("Initial conditions/u_x, u_y, u_z, v_x, v_y, v_z", initial_conditions),
       of_steps("Checkpoints/Steps",
                [](const Scene &s) { return s.checkpoints.steps > 0 && s.solver.is_linear_static(); }),
       of_steps("Checkpoints/Restart",

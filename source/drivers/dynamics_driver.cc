@@ -4,6 +4,7 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/base/text.h>
 #include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/initial_motion.h>
 #include <perideal/drivers/motion_check.h>
 #include <perideal/drivers/motion_forces.h>
 #include <perideal/drivers/motion_steps.h>
@@ -11,7 +12,6 @@
 #include <perideal/output/summary.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace perideal
@@ -33,6 +33,7 @@ namespace perideal
       explicit DynamicsDriver(Problem<dim> &problem)
         : Driver<dim>(problem, motion())
         , solver(problem.parameters.solver)
+        , initial(problem.parameters.initial)
         , motion_check(problem)
       {
       }
@@ -42,17 +43,7 @@ namespace perideal
       using Driver<dim>::recorders;
       using Driver<dim>::resumed;
 
-      void prepare_scene() override
-      {
-        const auto &velocity = problem.parameters.initial.velocity;
-        const char *axes[]   = {"x", "y", "z"};
-        for (int d = 0; d < dim; ++d)
-          initial_velocity[d] =
-            SpaceTimeFunction<dim>(velocity[d], std::string("Initial conditions/v_") + axes[d]);
-        if (dim == 2 && !velocity[2].empty())
-          throw InputError("a two-dimensional scene has no z component").parameter("Initial conditions/v_z");
-        problem.failure.prepare(problem.body);
-      }
+      void prepare_scene() override { problem.failure.prepare(problem.body); }
 
       void prepare() override
       {
@@ -159,12 +150,7 @@ namespace perideal
                                                                 Start::velocity_verlet :
                                                                 Start::symplectic_euler);
         forces.act_on(*dynamics);
-        const Nodes<dim> &nodes = *problem.body.nodes;
-        for (int d = 0; d < dim; ++d)
-          if (initial_velocity[d].is_present())
-            for (LocalIndex i = 0; i < nodes.size(); ++i)
-              dynamics->velocity.local_element(dim * i + d) =
-                initial_velocity[d].value(nodes.position[i], 0.);
+        initial.set(problem, *dynamics);
       }
 
       void check_loads() override
@@ -183,7 +169,7 @@ namespace perideal
         if (resumed)
           this->resume_checkpoint();
         if (!problem.loading.supports->hold_nodes())
-          dynamics->move_faces(*problem.loading.supports->face_values());
+          initial.move_faces(problem, *problem.loading.supports->face_values(), *dynamics);
         apply_forces();
         const bool        loads_change = problem.loading.loads.forces_depend_on_time();
         const auto        interval     = problem.parameters.checkpoints.steps;
@@ -310,13 +296,13 @@ namespace perideal
           forces.contact->forget_lists();
       }
 
-      const SolverParameters                 &solver;
-      std::array<SpaceTimeFunction<dim>, dim> initial_velocity;
-      MotionForces<dim>                       forces;
-      std::vector<double>                     mass;
-      MotionSteps                             steps;
-      std::unique_ptr<ExplicitDynamics<dim>>  dynamics;
-      MotionCheck<dim>                        motion_check;
+      const SolverParameters                &solver;
+      const InitialMotion<dim>               initial;
+      MotionForces<dim>                      forces;
+      std::vector<double>                    mass;
+      MotionSteps                            steps;
+      std::unique_ptr<ExplicitDynamics<dim>> dynamics;
+      MotionCheck<dim>                       motion_check;
     };
   } // namespace
 

@@ -81,6 +81,12 @@ namespace perideal
     const char *axes[] = {"x", "y", "z"};
     prm.enter_subsection("Initial conditions");
     for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("u_") + axes[d],
+                        displacement[d],
+                        std::string("Displacement at t = 0 along ") + axes[d] +
+                          " [m], a formula in x, y, z, in dynamics; held boundaries start where their "
+                          "conditions are at t = 0; empty: none");
+    for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(std::string("v_") + axes[d],
                         velocity[d],
                         std::string("Velocity at t = 0 along ") + axes[d] +

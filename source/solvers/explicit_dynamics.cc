@@ -34,11 +34,12 @@ namespace perideal
   }
 
   template <int dim>
-  void ExplicitDynamics<dim>::move_faces(FaceValues<dim> &values)
+  void ExplicitDynamics<dim>::move_faces(FaceValues<dim>                           &values,
+                                         const std::vector<dealii::Tensor<1, dim>> &start)
   {
     held.faces = &values;
     held.moved.assign(values.entries().size(), dealii::Tensor<1, dim>());
-    values.set_values(held.moved);
+    values.set_values(start);
     // What velocities sum up to is found as it was: step by step.
     for (std::uint64_t step = 0; step < n_steps; ++step)
       {
@@ -107,14 +108,23 @@ namespace perideal
           damped_after += drag * after[k];
         }
     own.kinetic = 0.5 * kinetic_sum;
-    // At the beginning the initial motion is there: what it holds counts as put in.
+    // At the beginning the initial motion and strain are there: what they hold counts as put in.
     own.external_work +=
       n_steps == 0 ? own.kinetic : own.next_external_work + 0.5 * scheme.time_step * work_before;
+    if (n_steps == 0)
+      add_work(bonds.strain_energy() + breaks.energy);
     own.damped += n_steps == 0 ? 0. : own.next_damped + 0.5 * scheme.time_step * damped_before;
     own.next_external_work = 0.5 * scheme.time_step * work_after;
     own.next_damped        = 0.5 * scheme.time_step * damped_after;
     if (held.faces)
       work_of_faces();
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::add_work(const double of_all)
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(displacement.get_mpi_communicator()) == 0)
+      own.external_work += of_all;
   }
 
   template <int dim>

@@ -84,6 +84,8 @@ namespace perideal
   /// Section "Initial conditions".
   struct InitialParameters
   {
+    /// Displacement of the body at t = 0 by component [m], formulas in x, y, z; empty: none.
+    std::array<std::string, 3> displacement;
     /// Velocity of the body at t = 0 by component [m/s], formulas in x, y, z; empty: at rest.
     std::array<std::string, 3> velocity;
 

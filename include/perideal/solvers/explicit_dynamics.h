@@ -68,14 +68,19 @@ namespace perideal
     void set_contact(ContactForce<dim> *force) { added.contact = force; }
     void set_relative_damping(RelativeDamping<dim> *relative);
 
-    /// Moves prescribed values at faces, which the force reads, besides the held nodes: from zero to where
-    /// they are at the present time. They must outlive this object.
-    void move_faces(FaceValues<dim> &values);
+    /// Moves prescribed values at faces, which the force reads, besides the held nodes: to where they are at
+    /// the present time. They must outlive this object.
+    /// @param start where they are at t = 0 [m], by entry
+    void move_faces(FaceValues<dim> &values, const std::vector<dealii::Tensor<1, dim>> &start);
 
     /// Forces, velocities of the next half step and energies at the present time;
     /// to be followed by advance(). Collective.
     /// @param external force of the loads [N]
     void evaluate(const NodalVector &external);
+
+    /// Adds work of what is none of the forces here to the energy put in [J].
+    /// @param of_all of all ranks
+    void add_work(const double of_all);
 
     /// Advances by one step.
     void advance();
