@@ -92,7 +92,8 @@ namespace perideal
   template <int dim>
   void Loading<dim>::set_body_forces(const double time, NodalVector &force) const
   {
-    if (!moments)
+    // In motion a body force acts as inertia does, on the values that carry the masses.
+    if (!moments || body.parameters.solver.is_dynamic())
       {
         perideal::set_body_forces(*body.nodes, loads, time, force);
         return;

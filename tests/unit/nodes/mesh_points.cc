@@ -144,7 +144,9 @@ TYPED_TEST(MeshPointsTest, CracksHaveTwoSides)
   for (LocalIndex i = 0; i < cube.nodes->size(); ++i)
     if (const auto &x = cube.graph->position[i]; x[1] > 0.75)
       for (const LocalIndex j : cube.points->cells_around(i))
-        EXPECT_EQ(x[0] < 0.5, cube.graph->position[j][0] < 0.5) << x;
+        {
+          EXPECT_EQ(x[0] < 0.5, cube.graph->position[j][0] < 0.5) << x;
+        }
 
   cube.points->open([](const LocalIndex, const LocalIndex) { return false; });
   EXPECT_EQ(cube.points->n_points(), dim == 2 ? 25u : 125u);

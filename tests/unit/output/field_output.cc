@@ -79,7 +79,9 @@ TYPED_TEST(FieldOutputTest, CellsShareTheirPoints)
           const auto vectors = read_data_arrays<float>(vtu, "\"velocity\" NumberOfComponents=\"3\"").at(0);
           const auto scalars = read_data_arrays<float>(vtu, "\"height\"").at(0);
           if (format == OutputFormat::vtu)
-            EXPECT_EQ(points.size(), 3 * (dim == 2 ? 25u : 125u));
+            {
+              EXPECT_EQ(points.size(), 3 * (dim == 2 ? 25u : 125u));
+            }
           ASSERT_EQ(moved.size(), points.size());
           ASSERT_EQ(n_vertices * scalars.size(), corners.size());
           // Values up to 500 in single precision, whose unit round-off is 6e-8.
