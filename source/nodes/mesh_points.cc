@@ -41,8 +41,8 @@ namespace perideal
 
       void join(const std::size_t a, const std::size_t b)
       {
-        const auto [first, second] = std::minmax(root(a), root(b));
-        parent[second]             = first;
+        const std::size_t of_a = root(a), of_b = root(b);
+        parent[std::max(of_a, of_b)] = std::min(of_a, of_b);
       }
 
       std::vector<std::size_t> parent;
