@@ -222,13 +222,14 @@ namespace perideal
 
   std::vector<ReferenceEntry> reference()
   {
-    std::string text = "subsection Material\n subsection PHYSICAL GROUP\n end\nend\n";
+    // Formulas call a table by its name.
+    std::string text = "subsection Material\n subsection PHYSICAL GROUP\n end\nend\n"
+                       "subsection Tables\n subsection ANY_NAME\n end\nend\n";
     for (const char *section : {"Boundary conditions",
                                 "Point loads",
                                 "Areal force densities",
                                 "Gauges",
                                 "Probes",
-                                "Tables",
                                 "Precracks",
                                 "No-fail zones",
                                 "Comparison",

@@ -102,7 +102,7 @@ def parameters(listed):
     for entry in json.loads(listed):
         path = entry["path"].replace("Boundary conditions/ANY NAME", "Boundary conditions/b")
         choices = ["true", "false"] if entry["kind"] == "boolean" else entry["choices"]
-        result.append((path.replace("ANY NAME", "a").replace("PHYSICAL GROUP", "plate"), entry["kind"], choices))
+        result.append((path.replace("ANY NAME", "a").replace("ANY_NAME", "a").replace("PHYSICAL GROUP", "plate"), entry["kind"], choices))
     return result
 
 

@@ -55,6 +55,7 @@ def listed_scene(program, folder):
     listing = run(program, "--parameters", "prm", folder=folder)[1]
     listing, n_groups = re.subn(r"\n  subsection PHYSICAL GROUP\n.*?\n  end\n", "\n", listing, flags=re.DOTALL)
     (folder / "listed.prm").write_text(listing, encoding="utf-8")
+    (folder / "listed.csv").write_text("time,value\n0,0\n1,1\n", encoding="utf-8")
     condition = "Boundary conditions/ANY NAME/"
     load = "Point loads/ANY NAME/"
     values = ["Material/Young modulus=1e9", "Material/Poisson ratio=0.3", "Material/Density=1000", "Mesh/Generator=box", condition + "Boundary=left", condition + "u_x=0", condition + "u_y=0",
@@ -65,7 +66,7 @@ def listed_scene(program, folder):
               "No-fail zones/ANY NAME/Box=0, 0; 0.5, 0.5",
               "Areal force densities/ANY NAME/Point=0.5, 0.5", "Areal force densities/ANY NAME/Normal=1, 0",
               "Gauges/ANY NAME/From=0, 0.5", "Gauges/ANY NAME/To=1, 0.5",
-              "Probes/ANY NAME/Point=0.5, 0.5"]
+              "Probes/ANY NAME/Point=0.5, 0.5", "Tables/ANY_NAME/File=listed.csv"]
     return n_groups, [argument for value in values for argument in ("--set", value)]
 
 

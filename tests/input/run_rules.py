@@ -75,7 +75,7 @@ def choices(program):
     """{path: [value]} of all selections outside of sections that the user names."""
     entries = json.loads(run(program, "--parameters", "json")[1])
     return {entry["path"]: entry["choices"] for entry in entries
-            if entry["choices"] and not any(name in entry["path"] for name in ("ANY NAME", "PHYSICAL GROUP"))}
+            if entry["choices"] and not any(name in entry["path"] for name in ("ANY NAME", "ANY_NAME", "PHYSICAL GROUP"))}
 
 
 def messages(program):

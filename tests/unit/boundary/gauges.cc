@@ -99,7 +99,7 @@ TEST(Gauges, NameWhatIsWrong)
     [&] {
       Gauges<2>(*mesh, graph, {{"wide", {0., 0.5}, {1.1, 0.5}}});
     },
-    {"Gauges/wide/To", "1.1 0.5", "outside"});
+    {"Gauges/wide/To", "1.1, 0.5", "outside"});
   GaugeParameters parameters;
   parameters.gauges = {{"short", "0, 0", "0, 0"}};
   expect_input_error([&] { read_gauges<2>(parameters); }, {"Gauges/short/To", "no length"});

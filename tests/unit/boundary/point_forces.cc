@@ -110,5 +110,9 @@ TEST(PointForces, OutsideTheBodyAreErrors)
   const auto     mesh = test::make_box<2>({4, 4}, {1., 1.}, 0.);
   const Nodes<2> nodes(*mesh, NodeParameters{3.01});
   forces_of<2>(*mesh, nodes, {0.3, 1.02}); // within a tenth of a cell
-  expect_input_error([&] { forces_of<2>(*mesh, nodes, {0.3, 1.03}); }, {"load/Point", "0.3 1.03", "outside"});
+  expect_input_error(
+    [&] {
+      forces_of<2>(*mesh, nodes, {0.3, 1.03});
+    },
+    {"load/Point", "0.3, 1.03", "outside"});
 }
