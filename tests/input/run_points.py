@@ -179,7 +179,9 @@ def check_crack(scenes):
     for ranks in (1, 2, 3):
         for form in ("consistent", "energy"):
             case = f"crack, {form}, {ranks} ranks"
-            (solution,), _, _ = scenes.run(SCENE, crack | {"Material/Form": form}, ranks)
+            # In linear statics the consistent form alone has cracks.
+            solver = "static" if form == "consistent" else "quasi static"
+            (solution,), _, _ = scenes.run(SCENE, crack | {"Material/Form": form, "Solver/Name": solver}, ranks)
             # The vertices at y = 0, 0.1, 0.2 and 0.3 have two sides; at the tip both hang together.
             expect(len(solution["points"]) == 117 + 4, f"{case}: {len(solution['points'])} points, not 121")
             at_mouth = [u[0] for point, u in zip(solution["points"], solution["point"]["displacement"])

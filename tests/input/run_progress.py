@@ -4,7 +4,7 @@
 
     run_progress.py --program build/perideal [--mpirun "mpirun ..."]
 
-The runs have more to do than a second takes; they are asked to stop when they have shown what they must.
+The runs have more to do than a second takes; they are ended when they have shown what they must.
 """
 
 import argparse
@@ -46,7 +46,7 @@ def command_of(program, folder, scene, settings):
 
 
 def see(command, folder, is_enough, on_terminal, seconds):
-    """What a command prints, until that is enough or the time is over; then it is asked to stop."""
+    """What a command prints, until that is enough or the time is over, and whether it had more to do; then it is ended."""
     with tempfile.TemporaryDirectory(prefix="perideal-", ignore_cleanup_errors=True) as temporary:
         ours, theirs = pty.openpty() if on_terminal else os.pipe()
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=theirs, stderr=subprocess.STDOUT,
@@ -62,25 +62,26 @@ def see(command, folder, is_enough, on_terminal, seconds):
                 if not got:
                     break
                 text += got.decode(errors="replace")
-        if process.poll() is None:
+        works = process.poll() is None
+        if works:
             os.killpg(process.pid, signal.SIGKILL)  # the group of our own child
         process.wait()
         os.close(ours)
-    return text
+    return text, works
 
 
 def check_bars(program, folder):
     for what, scene, settings in RUNS:
         command = command_of(program, folder, scene, settings)
-        text = see(command, folder, lambda text: any(bar.group(1).startswith(what) for bar in BAR.finditer(text)), True, LIMIT)
+        text, _ = see(command, folder, lambda text: any(bar.group(1).startswith(what) for bar in BAR.finditer(text)), True, LIMIT)
         expect(any(bar.group(1).startswith(what) for bar in BAR.finditer(text)), f"no bar of {what!r} on a terminal:\n{text[-2000:]}")
 
 
 def check_files(program, folder):
-    """Three seconds of the same without a terminal."""
+    """Some seconds of the same without a terminal. (Bars would be there at once, other lines wait for more of them.)"""
     for what, scene, settings in RUNS:
-        text = see(command_of(program, folder, scene, settings), folder, lambda text: False, False, 3)
-        expect("nodes" in text, f"{what}: the run did not begin:\n{text}")
+        text, works = see(command_of(program, folder, scene, settings), folder, lambda text: False, False, 5)
+        expect(works, f"{what}: the run ended before there was anything to show:\n{text}")
         expect("\r" not in text and "\x1b" not in text and " left" not in text, f"{what}: bars in a file:\n{text[-2000:]}")
 
 
@@ -88,10 +89,10 @@ def check_ranks(program, folder, mpirun):
     """mpirun gives its processes terminals; what counts is where its own output goes."""
     what, scene, settings = RUNS[3]
     command = mpirun + ["-n", "2"] + command_of(program, folder, scene, settings)
-    text = see(command, folder, lambda text: False, False, 4)
-    expect("nodes" in text, f"two ranks did not begin:\n{text}")
+    text, works = see(command, folder, lambda text: False, False, 6)
+    expect(works, f"two ranks ended before there was anything to show:\n{text}")
     expect("\r" not in text and "\x1b" not in text, f"bars of two ranks in a file:\n{text[-2000:]}")
-    text = see(command, folder, BAR.search, True, LIMIT)
+    text, _ = see(command, folder, BAR.search, True, LIMIT)
     expect(BAR.search(text), f"no bar of two ranks on a terminal ({what}):\n{text[-2000:]}")
 
 
