@@ -16,6 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
+from checks import count_failures, expect
 from execute import environment, start
 LIMIT = 120  # seconds, for a machine that is busy
 SCENE = """set Dimension = 2
@@ -52,15 +53,6 @@ subsection Output
 end
 """
 FOREIGN = ("HDF5-DIAG", "terminate called", "Stacktrace", "An error occurred", "internal error", "MPI_ABORT", "mca_")
-
-
-class Failure(Exception):
-    pass
-
-
-def expect(holds, text):
-    if not holds:
-        raise Failure(text)
 
 
 class Directory:
@@ -256,18 +248,10 @@ def main():
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     parser.add_argument("--only", choices=[check.__name__ for check in CHECKS])
     arguments = parser.parse_args()
-    n_failed = 0
-    for check in CHECKS:
-        if arguments.only not in (None, check.__name__):
-            continue
-        with tempfile.TemporaryDirectory(prefix="perideal-directory-") as name:
-            try:
-                check(lambda case, name=name: Directory(arguments, Path(name) / case))
-                print(f"ok        {check.__doc__}")
-            except Failure as failure:
-                n_failed += 1
-                print(f"DEVIATES  {check.__doc__}\n    {failure}")
-    return 1 if n_failed else 0
+    chosen = [check for check in CHECKS if arguments.only in (None, check.__name__)]
+    return 1 if count_failures([
+        (check.__doc__, lambda path, check=check: check(lambda case: Directory(arguments, path / case))) for check in chosen
+    ]) else 0
 
 
 if __name__ == "__main__":

@@ -12,11 +12,11 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import zlib
 from html.parser import HTMLParser
 from pathlib import Path
 
+from checks import count_failures, expect
 from execute import execute
 
 SKIPPED = 77
@@ -48,15 +48,6 @@ subsection Output
 end
 """
 LACKING = "#!/bin/sh\necho vtkmodules >&2\nexit 3\n"
-
-
-class Failure(Exception):
-    pass
-
-
-def expect(holds, text):
-    if not holds:
-        raise Failure(text)
 
 
 def pixels(path):
@@ -220,19 +211,12 @@ def main():
     arguments = parser.parse_args()
     found = subprocess.run(["/usr/bin/python3", "-c", f"import {MODULES}"], capture_output=True, check=False) \
         if Path("/usr/bin/python3").exists() else None
-    n_failed = 0
-    for test in (missing_modules, plate, plot, solid, curves):
-        if test is not missing_modules and (found is None or found.returncode != 0):
-            print("skipped: /usr/bin/python3 lacks vtk, matplotlib or numpy: apt-get install python3-vtk9 python3-matplotlib python3-numpy")
-            return 1 if n_failed else SKIPPED
-        with tempfile.TemporaryDirectory(prefix="perideal-pictures-") as name:
-            try:
-                test(Bench(arguments.program, Path(name)), arguments.scenes)
-                print(f"ok        {test.__doc__}")
-            except Failure as failure:
-                n_failed += 1
-                print(f"DEVIATES  {test.__doc__}\n    {failure}")
-    return 1 if n_failed else 0
+    draws = found is not None and found.returncode == 0
+    tests = (missing_modules, plate, plot, solid, curves) if draws else (missing_modules,)
+    n_failed = count_failures([(test.__doc__, lambda path, test=test: test(Bench(arguments.program, path), arguments.scenes)) for test in tests])
+    if not draws:
+        print("skipped: /usr/bin/python3 lacks vtk, matplotlib or numpy: apt-get install python3-vtk9 python3-matplotlib python3-numpy")
+    return 1 if n_failed else 0 if draws else SKIPPED
 
 
 if __name__ == "__main__":

@@ -15,13 +15,11 @@ import tempfile
 import time
 from pathlib import Path
 
+from checks import Failure
+
 # A coarse plate in which the first bonds break at about 90 of 320 steps.
 SCENE = ["Mesh/Refinements=0", "Material/Form=energy", "Solver/Time step=160e-9", "Solver/End time=51.2e-6"]
 LIMIT = 120  # seconds, for a machine that is busy
-
-
-class Failure(Exception):
-    pass
 
 
 class Runs:

@@ -12,7 +12,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from run_restart import Failure, Runs
+from checks import Failure
+from run_restart import Runs
 
 # Bonds break from step 2 of 20 on, and pieces come loose.
 PANEL = ["Mesh/Refinements=0", "Solver/Load steps=20"]

@@ -12,19 +12,10 @@ import math
 import os
 import shlex
 import sys
-import tempfile
 from pathlib import Path
 
+from checks import count_failures, expect
 from execute import execute
-
-
-class Failure(Exception):
-    pass
-
-
-def expect(holds, text):
-    if not holds:
-        raise Failure(text)
 
 
 def run(command, folder, status=0):
@@ -96,17 +87,12 @@ def main():
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe", help="default: %(default)s")
     arguments = parser.parse_args()
     two_ranks = shlex.split(arguments.mpirun) + ["-n", "2"]
-    n_failed = 0
-    for launcher, test in (([], convergence), (two_ranks, convergence), ([], comparison), (two_ranks, comparison), (two_ranks, failing_run)):
-        with tempfile.TemporaryDirectory(prefix="perideal-sweep-") as name:
-            label = f"{test.__doc__}{' (2 ranks)' if launcher else ''}"
-            try:
-                test(launcher, arguments.program, arguments.scenes, Path(name))
-                print(f"ok        {label}")
-            except Failure as failure:
-                n_failed += 1
-                print(f"DEVIATES  {label}\n    {failure}")
-    return 1 if n_failed else 0
+    tests = (([], convergence), (two_ranks, convergence), ([], comparison), (two_ranks, comparison), (two_ranks, failing_run))
+    return 1 if count_failures([
+        (f"{test.__doc__}{' (2 ranks)' if launcher else ''}",
+         lambda path, launcher=launcher, test=test: test(launcher, arguments.program, arguments.scenes, path))
+        for launcher, test in tests
+    ]) else 0
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from checks import count_failures, expect
 from execute import execute
 from vtu import read_vtu
 
@@ -97,15 +98,6 @@ subsection Boundary conditions
   end
 end
 """
-
-
-class Failure(Exception):
-    pass
-
-
-def expect(condition, text):
-    if not condition:
-        raise Failure(text)
 
 
 class Scenes:
@@ -227,14 +219,8 @@ def main():
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     arguments = parser.parse_args()
     scenes = Scenes(str(arguments.program.resolve()), arguments.mpirun)
-    failed = 0
-    for check in (check_tension, check_hanging, check_other_forms, check_crack, check_growth, check_pieces):
-        try:
-            check(scenes)
-        except Failure as failure:
-            failed += 1
-            print(f"FAILED: {check.__name__}: {failure}")
-    return 1 if failed else 0
+    checks = (check_tension, check_hanging, check_other_forms, check_crack, check_growth, check_pieces)
+    return 1 if count_failures([(check.__doc__, lambda _, check=check: check(scenes)) for check in checks]) else 0
 
 
 if __name__ == "__main__":

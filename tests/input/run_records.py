@@ -11,13 +11,13 @@ import json
 import re
 import shlex
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from checks import count_failures, expect
 from execute import execute
-from run_points import CONSISTENT, POISSON, SCENE, STRESS, TORN, YOUNG, Failure, expect
+from run_points import CONSISTENT, POISSON, SCENE, STRESS, TORN, YOUNG
 from vtu import read_vtu
 
 PROBES = {"Probes/tip/Point": "0.73, 0.31", "Probes/tip/Fields": "displacement, stress, strain, von mises",
@@ -162,15 +162,9 @@ def main():
     parser.add_argument("--program", required=True, type=Path)
     parser.add_argument("--mpirun", default="mpirun --bind-to none --oversubscribe")
     arguments = parser.parse_args()
-    failed = 0
-    for check in (check_probes, check_probes_in_motion, check_line, check_frames, check_more_steps, check_longer_motion):
-        with tempfile.TemporaryDirectory(prefix="perideal-records-") as name:
-            try:
-                check(Folder(str(arguments.program.resolve()), shlex.split(arguments.mpirun), Path(name)))
-            except Failure as failure:
-                failed += 1
-                print(f"FAILED: {check.__name__}: {failure}")
-    return 1 if failed else 0
+    program, mpirun = str(arguments.program.resolve()), shlex.split(arguments.mpirun)
+    checks = (check_probes, check_probes_in_motion, check_line, check_frames, check_more_steps, check_longer_motion)
+    return 1 if count_failures([(check.__doc__, lambda path, check=check: check(Folder(program, mpirun, path))) for check in checks]) else 0
 
 
 if __name__ == "__main__":
