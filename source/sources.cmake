@@ -28,6 +28,7 @@ set(perideal_sources
   parameters/elastic_solid.cc
   parameters/elastic_symmetry.cc
   parameters/engineering_constants.cc
+  parameters/expanded_law.cc
   parameters/gauge_parameters.cc
   parameters/hencky.cc
   parameters/hyperelastic_law.cc
@@ -168,6 +169,7 @@ set(perideal_sources
 
   boundary/body_forces.cc
   boundary/boundary_faces.cc
+  boundary/cell_expansion.cc
   boundary/dirichlet_nodes.cc
   boundary/face_tractions.cc
   boundary/face_values.cc
@@ -322,6 +324,7 @@ set(perideal_sources
   drivers/dynamics_driver.cc
   drivers/equilibrium_driver.cc
   drivers/failed_step.cc
+  drivers/heating.cc
   drivers/initial_motion.cc
   drivers/load_control.cc
   drivers/motion_check.cc
@@ -340,6 +343,7 @@ set(perideal_sources
   application/read_scene.cc
   application/rules.cc
   application/rules_failure.cc
+  application/rules_loads.cc
   application/rules_model.cc
   application/rules_output.cc
   application/rules_quadrature.cc

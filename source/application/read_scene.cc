@@ -115,6 +115,7 @@ namespace perideal
       LoadParameters body = none;
       body.body_force     = scene.loads.body_force;
       body.gravity        = scene.loads.gravity;
+      body.temperature    = scene.loads.temperature;
       mistakes.collect([&] { Loads<dim>{body}; });
       read_formulas<dim>(scene.initial.displacement, "Initial conditions/u_", Tables(), mistakes);
       read_formulas<dim>(scene.initial.velocity, "Initial conditions/v_", Tables(), mistakes);

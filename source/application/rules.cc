@@ -51,8 +51,13 @@ namespace perideal
   {
     static const std::vector<Rule> table = [] {
       std::vector<Rule> all;
-      for (const auto part :
-           {model_rules, failure_rules, treatment_rules, quadrature_rules, solver_rules, output_rules})
+      for (const auto part : {model_rules,
+                              failure_rules,
+                              treatment_rules,
+                              load_rules,
+                              quadrature_rules,
+                              solver_rules,
+                              output_rules})
         for (Rule &rule : part())
           all.push_back(std::move(rule));
       return all;

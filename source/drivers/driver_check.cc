@@ -106,6 +106,8 @@ namespace perideal
     out << "error       ";
     if (!problem.discretisation.gradients.moments)
       out << "not estimated: that takes Material/Form = consistent\n";
+    else if (problem.loading.expansion)
+      out << "not estimated: the estimate takes no thermal strain\n";
     else if (problem.loading.supports->needs_reference())
       out << "not estimated: nodes are held where a reference puts them, which the run solves for\n";
     else if (dim * n_cells > max_unknowns)

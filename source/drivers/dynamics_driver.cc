@@ -4,6 +4,7 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/base/text.h>
 #include <perideal/drivers/create_drivers.h>
+#include <perideal/drivers/heating.h>
 #include <perideal/drivers/initial_motion.h>
 #include <perideal/drivers/motion_check.h>
 #include <perideal/drivers/motion_forces.h>
@@ -186,7 +187,7 @@ namespace perideal
             {
               const Timings::Scope scope(problem.run.timings, "solve");
               if ((loads_change || problem.force->version() != version) && n > 0)
-                apply_forces();
+                heat_and_load();
               version = problem.force->version();
               dynamics->evaluate(problem.state.external_force);
             }
@@ -208,6 +209,13 @@ namespace perideal
               return false;
           }
         return true;
+      }
+
+      void heat_and_load()
+      {
+        Heating<dim> heating(problem);
+        apply_forces();
+        dynamics->add_work(heating.change());
       }
 
       void apply_forces() { problem.loading.external_force(dynamics->time(), problem.state.external_force); }

@@ -4,6 +4,7 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/failed_step.h>
+#include <perideal/drivers/heating.h>
 #include <perideal/drivers/load_control.h>
 #include <perideal/drivers/preconditioning.h>
 #include <perideal/fracture/floating_nodes.h>
@@ -167,6 +168,8 @@ namespace perideal
           problem.run.screen.get_stream(), problem.run.is_watched, "load steps");
         make_path();
         path->register_state(problem.lasting);
+        if (problem.loading.expansion)
+          problem.lasting.add_value("work of heating", work_of_heating);
         if (control)
           control->register_state(problem.lasting);
         if (resumed)
@@ -284,12 +287,16 @@ namespace perideal
                                  std::to_string(solver.n_load_steps()) + ", " +
                                  std::to_string(path->n_broken()) + " broken bonds";
         const double end = time_of(solver.n_load_steps());
+        Heating<dim> heating(problem);
         apply_loads(time);
+        heating.change();
         EquilibriumStep result =
           path->step(problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
             show(what, (from + (time - from) * share_of_iteration(r, solver.tolerance)) / end, iteration, r);
           });
         progress->clear();
+        if (result.converged)
+          work_of_heating += heating.work();
         if (!result.converged || problem.force->version() == version)
           return result;
         // Where bonds have taken the place of cells, loads act on nodes.
@@ -307,7 +314,8 @@ namespace perideal
       /// Energies and supports of the equilibrium.
       void measure(Step<dim> &step)
       {
-        step.energy       = path->energy();
+        step.energy = path->energy();
+        step.energy.external += work_of_heating;
         step.energy_error = this->energy_error(step.energy, step.energy.strain);
         step.n_broken     = path->n_broken();
         step.newly_broken = step.search.broken;
@@ -337,6 +345,8 @@ namespace perideal
       nlohmann::ordered_json            solver_report;
       /// Load steps.
       unsigned int done = 0;
+      /// That temperature has done so far [J].
+      double work_of_heating = 0;
     };
   } // namespace
 

@@ -14,7 +14,7 @@ namespace perideal
     , gradients(mapping,
                 element.base_element(0),
                 dealii::QGauss<dim>(element.degree + 1),
-                dealii::update_gradients | dealii::update_JxW_values)
+                dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values)
     , values(mapping,
              element.base_element(0),
              dealii::QGauss<dim>(element.degree + 1),
@@ -130,6 +130,25 @@ namespace perideal
         for (unsigned int a = 0; a < unknown_of_shape.size(); ++a)
           for (unsigned int i = 0; i < dim; ++i)
             forces(unknown_of_shape[a][i]) += values.shape_value(a, q) * force[i];
+      }
+  }
+
+  template <int dim>
+  void CellIntegrals<dim>::add_stress(
+    const Cell                                                                       &cell,
+    const std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> &stress,
+    dealii::Vector<double>                                                           &forces)
+  {
+    gradients.reinit(typename dealii::Triangulation<dim>::cell_iterator(cell));
+    for (const unsigned int q : gradients.quadrature_point_indices())
+      {
+        const auto pull = thickness * gradients.JxW(q) * stress(gradients.quadrature_point(q));
+        for (unsigned int a = 0; a < unknown_of_shape.size(); ++a)
+          {
+            const dealii::Tensor<1, dim> force = pull * gradients.shape_grad(a, q);
+            for (unsigned int i = 0; i < dim; ++i)
+              forces(unknown_of_shape[a][i]) += force[i];
+          }
       }
   }
 

@@ -78,6 +78,15 @@ namespace perideal
 
     forces = 0.;
     external.add(cell, integrals, forces);
+    if (!loads.has_temperature())
+      return;
+    const auto of_expansion = material->second.stress_of_expansion();
+    integrals.add_stress(
+      cell,
+      [&](const dealii::Point<dim> &point) {
+        return loads.expansion_at(point, assembled.time, cell->material_id()) * of_expansion;
+      },
+      forces);
   }
 
   template <int dim>

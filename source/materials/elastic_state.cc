@@ -26,9 +26,21 @@ namespace perideal
   }
 
   template <int dim>
-  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain, const ElasticSolid<dim> &solid)
+  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain,
+                             const ElasticSolid<dim>               &solid,
+                             const double                           expansion)
   {
     ElasticState state;
+    if (expansion != 0.)
+      {
+        const auto elastic   = solid.strain_in_space(strain) - expansion * solid.expansion_in_space();
+        state.stress         = solid.stiffness_in_space() * elastic;
+        state.energy_density = 0.5 * (state.stress * elastic);
+        state.strain         = solid.assumption() == PlaneAssumption::plane_strain ?
+                                 solid.strain_in_space(strain) :
+                                 elastic + expansion * dealii::unit_symmetric_tensor<3>();
+        return state;
+      }
     state.strain = solid.strain_in_space(strain);
     if (solid.assumption() != PlaneAssumption::plane_stress)
       state.stress = solid.stiffness_in_space() * state.strain;

@@ -132,6 +132,25 @@ namespace perideal
   }
 
   template <int dim>
+  SymmetricTensor<2, 3> ElasticSolid<dim>::expansion_in_space() const
+  {
+    return constants.assumption == PlaneAssumption::plane_stress ?
+             strain_in_space(dealii::unit_symmetric_tensor<dim>()) :
+             dealii::unit_symmetric_tensor<3>();
+  }
+
+  template <int dim>
+  SymmetricTensor<2, dim> ElasticSolid<dim>::stress_of_expansion() const
+  {
+    const SymmetricTensor<2, 3> in_space = solid * expansion_in_space();
+    SymmetricTensor<2, dim>     result;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        result[i][j] = in_space[i][j];
+    return result;
+  }
+
+  template <int dim>
   ElasticSolid<dim> elastic_solid(const SymmetricTensor<4, dim> &stiffness)
   {
     if constexpr (dim == 3)

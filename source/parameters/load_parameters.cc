@@ -106,5 +106,18 @@ namespace perideal
                       "Acceleration of gravity by component [m/s^2], such as 0, -9.81; each may be a formula "
                       "in x, y, z, t. The body weighs by it, each material by its Density; empty: none");
     prm.leave_subsection();
+
+    prm.enter_subsection("Thermal strain");
+    prm.add_parameter(
+      "Temperature",
+      temperature,
+      "Temperature of the body [K or degrees], a formula in x, y, z, t. A free body expands in "
+      "all directions by Material/Thermal expansion times what it is above Reference "
+      "temperature; empty: no thermal strain");
+    prm.add_parameter("Reference temperature",
+                      reference_temperature,
+                      "Temperature at which there is no thermal strain [K or degrees]",
+                      dealii::Patterns::Double());
+    prm.leave_subsection();
   }
 } // namespace perideal

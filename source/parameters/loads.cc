@@ -169,6 +169,7 @@ namespace perideal
     };
     check(body_force);
     check(gravity);
+    temperature.check_tables(time);
     for (const PointLoad<dim> &load : point_loads)
       check(load.force);
     for (const BoundaryCondition<dim> &condition : conditions)
@@ -187,7 +188,7 @@ namespace perideal
       return std::any_of(
         functions.begin(), functions.end(), [](const auto &f) { return f.depends_on_time(); });
     };
-    return changes(body_force) || changes(gravity) ||
+    return changes(body_force) || changes(gravity) || temperature.depends_on_time() ||
            std::any_of(
              point_loads.begin(), point_loads.end(), [&](const auto &load) { return changes(load.force); }) ||
            std::any_of(conditions.begin(), conditions.end(), [&](const auto &condition) {
@@ -199,6 +200,8 @@ namespace perideal
   Loads<dim>::Loads(const LoadParameters &parameters)
     : body_force(make_components<dim>(parameters.body_force, "Body force/b_", parameters.tables.tables))
     , gravity(make_gravity<dim>(parameters))
+    , temperature(parameters.temperature, "Thermal strain/Temperature", parameters.tables.tables)
+    , reference_temperature(parameters.reference_temperature)
   {
     for (const BoundaryConditionText &text : parameters.conditions)
       conditions.push_back(make_condition<dim>(text, parameters.tables.tables));

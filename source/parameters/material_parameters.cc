@@ -36,6 +36,9 @@ namespace perideal
       declare("Density",
               properties.density,
               "Mass density > 0 [kg/m^3], of dynamics and gravity, where the scene must give it");
+      declare("Thermal expansion",
+              properties.thermal_expansion,
+              "Coefficient of thermal expansion [1/K], the same in all directions");
       declare("Fracture energy",
               properties.fracture_energy,
               "Energy to open a unit of crack surface >= 0 [J/m^2]; 0: unbreakable; "

@@ -139,5 +139,14 @@ namespace perideal
     return result;
   }
 
+  template <int dim>
+  std::map<dealii::types::material_id, double> Body<dim>::expansions_on(const Mesh<dim> &other) const
+  {
+    std::map<dealii::types::material_id, double> result;
+    for (const auto id : other.material_ids)
+      result[id] = properties_on(other, parameters.material, id).thermal_expansion;
+    return result;
+  }
+
   PERIDEAL_INSTANTIATE_CLASS(Body)
 } // namespace perideal

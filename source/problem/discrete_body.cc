@@ -102,6 +102,28 @@ namespace perideal
   }
 
   template <int dim>
+  void DiscreteBody<dim>::expand(const Body<dim>                                 &body,
+                                 const std::shared_ptr<const CellExpansion<dim>> &of_cells)
+  {
+    if (correspondence)
+      dynamic_cast<CorrespondenceTangent<dim> &>(*bonds).set_expansion(solids_of_model(body), of_cells);
+    else
+      dynamic_cast<ConsistentOperator<dim> &>(*bonds).set_expansion(of_cells);
+  }
+
+  template <int dim>
+  void DiscreteBody<dim>::expand(const Body<dim>                                 &body,
+                                 const std::shared_ptr<const CellExpansion<dim>> &of_cells,
+                                 BondForce<dim>                                  &force) const
+  {
+    const auto in_space = laws_in_space(law_of(body.parameters), body.solids);
+    if (correspondence)
+      dynamic_cast<CorrespondenceForce<dim> &>(force).expand(in_space, of_cells);
+    else
+      dynamic_cast<ConsistentForce<dim> &>(force).expand(in_space, of_cells);
+  }
+
+  template <int dim>
   std::vector<std::pair<dealii::Point<dim>, double>> DiscreteBody<dim>::held_faces() const
   {
     std::vector<std::pair<dealii::Point<dim>, double>> result;

@@ -123,7 +123,11 @@ namespace perideal
                                                          problem.state.unknowns,
                                                          problem.state.displacement) :
            strains_of_families(problem))
-      result.push_back(elastic_state<dim>(strain, problem.body.solids.at(nodes.material[result.size()])));
+      {
+        const LocalIndex i = result.size();
+        result.push_back(elastic_state<dim>(
+          strain, problem.body.solids.at(nodes.material[i]), problem.loading.free_expansion(i)));
+      }
     return result;
   }
 

@@ -20,14 +20,21 @@ namespace perideal
 
     /// Returns strain and stress of finite elements on the mesh itself at the nodes.
     template <int dim>
-    std::vector<ElasticState> states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem)
+    std::vector<ElasticState>
+    states_of_fem(const Problem<dim> &problem, const ElasticFem<dim> &fem, const double time)
     {
       const Nodes<dim> &nodes  = *problem.body.nodes;
       const auto        solids = problem.discretisation.compared_solids(problem.body, *problem.body.mesh);
+      const Loads<dim> &loads  = problem.loading.loads;
       std::vector<ElasticState> result;
       for (const auto &gradient :
            in_cells_of_nodes(nodes, [&](const auto &points) { return fem.gradients_in_cells(points); }))
-        result.push_back(elastic_state<dim>(symmetrize(gradient), solids.at(nodes.material[result.size()])));
+        {
+          const LocalIndex i = result.size();
+          const double     expansion =
+            loads.has_temperature() ? loads.expansion_at(nodes.position[i], time, nodes.material[i]) : 0.;
+          result.push_back(elastic_state<dim>(symmetrize(gradient), solids.at(nodes.material[i]), expansion));
+        }
       return result;
     }
   } // namespace
@@ -52,7 +59,7 @@ namespace perideal
     result.iterations = fem.solve(problem.parameters.solver.tolerance);
     result.n_unknowns = fem.n_dofs();
     if (fem.is_on_mesh_itself())
-      result.states = states_of_fem(problem, fem);
+      result.states = states_of_fem(problem, fem, time);
     result.displacement = at_nodes<dim>(problem, fem);
     return result;
   }
@@ -75,6 +82,7 @@ namespace perideal
     const Timings::Scope scope(problem.run.timings, "reference");
     Loads<dim>           loads = problem.loading.loads;
     loads.densities            = problem.body.densities_on(mesh);
+    loads.expansions           = problem.body.expansions_on(mesh);
     ElasticFem<dim> fem(mesh, loads, 2, comparison.reference_refinements);
     fem.assemble(problem.discretisation.compared_solids(problem.body, mesh), 1.);
     fem.set_up_solver();

@@ -16,8 +16,9 @@ namespace perideal
   template <int dim>
   void Loading<dim>::read()
   {
-    loads           = resolve_boundaries(*body.mesh, Loads<dim>(body.parameters.loads));
-    loads.densities = body.densities_on(*body.mesh);
+    loads            = resolve_boundaries(*body.mesh, Loads<dim>(body.parameters.loads));
+    loads.densities  = body.densities_on(*body.mesh);
+    loads.expansions = body.expansions_on(*body.mesh);
   }
 
   template <int dim>
@@ -30,6 +31,8 @@ namespace perideal
   void Loading<dim>::choose_nodes(Timings &timings)
   {
     supports = create_supports(treated_body(timings));
+    if (loads.has_temperature())
+      expansion = std::make_shared<CellExpansion<dim>>(body.nodes->size());
   }
 
   template <int dim>
@@ -83,6 +86,8 @@ namespace perideal
   {
     // No external force acts on nodes that are not those of cells.
     force = 0.;
+    if (expansion)
+      expansion->set(*body.mesh, *body.nodes, loads, time);
     set_body_forces(time, force);
     tractions->add_tractions(loads, time, force);
     tractions->add_given(time, force);

@@ -55,6 +55,8 @@ namespace perideal
       const Timings::Scope part(run.timings, "setup: weights");
       discretisation.weigh(body, loading.supports->face_values(), is_cut);
     }
+    if (loading.expansion)
+      discretisation.expand(body, loading.expansion);
     loading.surround(discretisation, run.timings);
     discretisation.measure_families(body);
     const Supports<dim> &supports = *loading.supports;
@@ -97,6 +99,8 @@ namespace perideal
   {
     const Timings::Scope scope(run.timings, "setup");
     force = discretisation.create_force(body);
+    if (loading.expansion)
+      discretisation.expand(body, loading.expansion, *force);
     force->register_state(lasting);
   }
 
@@ -138,7 +142,12 @@ namespace perideal
   void Problem<dim>::store_displacement()
   {
     if (const auto &moments = discretisation.gradients.moments)
-      state.displacement = moments->point_values(state.unknowns);
+      {
+        std::vector<typename GradientMoments<dim>::Place> places;
+        for (LocalIndex i = 0; i < body.nodes->size(); ++i)
+          places.push_back({i, body.nodes->position[i]});
+        state.displacement = moments->values_at(places, state.unknowns);
+      }
     else
       {
         state.displacement.resize(body.nodes->size());

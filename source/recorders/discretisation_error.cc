@@ -43,7 +43,9 @@ namespace perideal
   std::unique_ptr<Recorder<dim>> make_discretisation_error_recorder(Problem<dim>  &problem,
                                                                     const RunKind &kind)
   {
-    if (kind.has_motion || kind.has_iterations || !problem.discretisation.gradients.moments)
+    // The estimate takes no thermal strain.
+    if (kind.has_motion || kind.has_iterations || !problem.discretisation.gradients.moments ||
+        problem.loading.expansion)
       return nullptr;
     return std::make_unique<DiscretisationErrorRecorder<dim>>(problem);
   }

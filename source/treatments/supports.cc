@@ -2,6 +2,8 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/treatments/supports.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 namespace perideal
@@ -76,14 +78,17 @@ namespace perideal
     system.internal_force(on_all, displacement);
     std::copy(on_all.begin(), on_all.begin() + force.locally_owned_size(), force.begin());
 
-    // The strain energy is half the work of all forces that act on the body.
-    const auto          on_surface = act_on_surface(system);
+    // The strain energy is half the work of all forces that act on the body, and what heating puts in.
+    const auto   on_surface = act_on_surface(system);
+    const double by_heating =
+      dealii::Utilities::MPI::sum(system.bond_operator().energy_of_expansion(), communicator);
     SupportBalance<dim> result;
-    result.strain_energy = 0.5 * (force * displacement + on_surface.work);
+    result.strain_energy = 0.5 * (force * displacement + on_surface.work) + by_heating;
     force -= external_force;
     result.reactions     = hold_nodes() ? held_nodes.sum_by_condition(force, communicator) : on_surface.force;
     result.external_work = 0.5 * (external_force * displacement +
-                                  held_nodes.work(force, displacement, communicator) + on_surface.work);
+                                  held_nodes.work(force, displacement, communicator) + on_surface.work) +
+                           by_heating;
     return result;
   }
 

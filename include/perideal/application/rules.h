@@ -80,6 +80,7 @@ namespace perideal
   std::vector<Rule>                model_rules();
   std::vector<Rule>                failure_rules();
   std::vector<Rule>                treatment_rules();
+  std::vector<Rule>                load_rules();
   std::vector<Rule>                quadrature_rules();
   std::vector<Rule>                solver_rules();
   std::vector<Rule>                output_rules();

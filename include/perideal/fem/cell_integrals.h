@@ -41,6 +41,11 @@ namespace perideal
                         const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> &body_force,
                         dealii::Vector<double>                                                  &forces);
 
+    /// Adds the nodal forces [N] of a stress that is there without strain [Pa].
+    void add_stress(const Cell                                                                       &cell,
+                    const std::function<dealii::SymmetricTensor<2, dim>(const dealii::Point<dim> &)> &stress,
+                    dealii::Vector<double>                                                           &forces);
+
     /// Traction [Pa] at a boundary point with outward unit normal.
     using Traction =
       std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &, const dealii::Tensor<1, dim> &)>;

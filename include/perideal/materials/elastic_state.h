@@ -32,8 +32,11 @@ namespace perideal
 
   /// The state of an elastic body under a strain. Plane stress: nothing pulls
   /// across the body; plane strain: nothing stretches across.
+  /// @param expansion of the free body, in all directions [-]
   template <int dim>
-  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain, const ElasticSolid<dim> &solid);
+  ElasticState elastic_state(const dealii::SymmetricTensor<2, dim> &strain,
+                             const ElasticSolid<dim>               &solid,
+                             const double                           expansion = 0.);
 } // namespace perideal
 
 #endif

@@ -37,6 +37,19 @@ namespace perideal
     /// the components across it, which vanish in plane strain and leave no stress in plane stress.
     dealii::SymmetricTensor<2, 3> strain_in_space(const dealii::SymmetricTensor<2, dim> &strain) const;
 
+    /// The strain in space that has to be taken back where the body would expand freely by 1 in all
+    /// directions and its strain in the problem's own dimension is held at zero: 1 in all directions, in
+    /// plane stress with what leaves no stress across.
+    dealii::SymmetricTensor<2, 3> expansion_in_space() const;
+
+    /// The stress in the problem's own dimension that holds such an expansion back [Pa]: at a strain eps and
+    /// a free expansion e the stress is C eps less e times this.
+    dealii::SymmetricTensor<2, dim> stress_of_expansion() const;
+
+    /// Twice the energy that is stored then, in a unit of volume [J/m^3]: at eps and e the energy is half of
+    /// eps:C:eps less twice e eps:stress_of_expansion(), and e^2 times this.
+    double energy_of_expansion() const { return expansion_in_space() * (solid * expansion_in_space()); }
+
     bool is_isotropic() const { return has_no_direction; }
 
     /// The constants; of an anisotropic solid those of the isotropic one that is nearest in the sense of

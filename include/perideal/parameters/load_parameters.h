@@ -110,7 +110,7 @@ namespace perideal
     std::array<std::string, 3> force;
   };
 
-  /// Sections "Tables", "Boundary conditions", "Point loads" and "Body force", as text.
+  /// Sections "Tables", "Boundary conditions", "Point loads", "Body force" and "Thermal strain", as text.
   struct LoadParameters
   {
     Treatment             treatment              = Treatment::automatic;
@@ -127,6 +127,9 @@ namespace perideal
     std::array<std::string, 3> body_force;
     /// Acceleration by component [m/s^2], formulas separated by commas; empty: none.
     std::string gravity;
+    /// Temperature, a formula, empty: none; and that without thermal strain [K].
+    std::string temperature;
+    double      reference_temperature = 0.;
 
     /// Section "Tables", for formulas of all sections.
     TableParameters tables;
@@ -213,6 +216,11 @@ namespace perideal
     std::array<SpaceTimeFunction<dim>, dim> gravity;
     /// Of the cell groups that it acts on [kg/m^3].
     std::map<dealii::types::material_id, double> densities;
+    /// Temperature, and that without thermal strain [K].
+    SpaceTimeFunction<dim> temperature;
+    double                 reference_temperature = 0.;
+    /// Coefficients of thermal expansion of the cell groups [1/K].
+    std::map<dealii::types::material_id, double> expansions;
 
     /// @throws InputError on a wrong expression, a z component in 2-D, a
     /// condition that prescribes nothing or both displacement and traction of
@@ -244,6 +252,16 @@ namespace perideal
       return has_gravity() || std::any_of(body_force.begin(), body_force.end(), is_given);
     }
     bool has_gravity() const { return gravity[0].is_present(); }
+
+    /// Whether the scene gives a temperature.
+    bool has_temperature() const { return temperature.is_present(); }
+    /// The strain by which a free body of that material expands in all directions [-].
+    double expansion_at(const dealii::Point<dim>        &point,
+                        const double                     time,
+                        const dealii::types::material_id material) const
+    {
+      return expansions.at(material) * (temperature.value(point, time) - reference_temperature);
+    }
   };
 } // namespace perideal
 

@@ -27,6 +27,8 @@ namespace perideal
     double poisson_ratio = 0.33;
     /// Mass density [kg/m^3].
     double density = 2700.;
+    /// Coefficient of thermal expansion [1/K].
+    double thermal_expansion = 0.;
     /// Fracture energy [J/m^2] of cracks in all directions; 0: the material does not break, or as the next
     /// says.
     double fracture_energy = 0.;

@@ -48,6 +48,9 @@ namespace perideal
     /// Returns the densities of these groups [kg/m^3].
     std::map<dealii::types::material_id, double> densities_on(const Mesh<dim> &mesh) const;
 
+    /// Returns their coefficients of thermal expansion [1/K].
+    std::map<dealii::types::material_id, double> expansions_on(const Mesh<dim> &mesh) const;
+
     const SceneParameters     &parameters;
     std::unique_ptr<Mesh<dim>> mesh;
     /// Lowest and highest corner of the box around the mesh [m].

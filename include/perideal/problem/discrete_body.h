@@ -22,6 +22,8 @@ namespace perideal
   template <int dim>
   class BondForce;
   template <int dim>
+  struct CellExpansion;
+  template <int dim>
   class FaceValues;
   template <int dim>
   class GaussPoints;
@@ -47,6 +49,12 @@ namespace perideal
     void weigh(const Body<dim>                        &body,
                const std::shared_ptr<FaceValues<dim>> &face_values,
                const BondPredicate<dim>               &is_cut);
+
+    /// Hands the free expansion of the cells to the linear operator, and to the force.
+    void expand(const Body<dim> &body, const std::shared_ptr<const CellExpansion<dim>> &of_cells);
+    void expand(const Body<dim>                                 &body,
+                const std::shared_ptr<const CellExpansion<dim>> &of_cells,
+                BondForce<dim>                                  &force) const;
 
     /// Measures the stiffness of whole families, where finite elements are to have it. Collective.
     /// @throws InputError where no family is whole, or several materials have several stiffnesses.

@@ -2,6 +2,7 @@
 #ifndef perideal_problem_loading_h
 #define perideal_problem_loading_h
 
+#include <perideal/boundary/cell_expansion.h>
 #include <perideal/boundary/point_forces.h>
 #include <perideal/operators/system/null_space.h>
 #include <perideal/problem/discrete_body.h>
@@ -41,6 +42,13 @@ namespace perideal
 
     /// Sets the external force of all loads at a time [N], overwritten. Collective.
     void external_force(const double time, NodalVector &force) const;
+
+    /// Strain by which the cell of an owned node would expand freely, its mean at the time of the last
+    /// external_force() [-].
+    double free_expansion(const LocalIndex i) const { return expansion ? expansion->mean[i] : 0.; }
+
+    /// That of all cells, which external_force() sets to its time; null where the scene gives no temperature.
+    std::shared_ptr<CellExpansion<dim>> expansion;
 
     /// Tractions of faces, body forces and point loads of this rank as forces at their places, at t = 1.
     std::vector<typename NullSpace<dim>::Force> forces_on_body() const;

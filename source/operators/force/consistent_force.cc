@@ -2,10 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/operators/force/consistent_force.h>
 
-#include <deal.II/base/memory_consumption.h>
 #include <deal.II/base/mpi.h>
-
-#include <algorithm>
 
 namespace perideal
 {
@@ -18,13 +15,16 @@ namespace perideal
     , moments(moments)
     , bonds(bonds)
     , points(std::make_shared<const CellPoints<dim>>(moments->cell_polynomials(), bonds->shares()))
-    , laws(laws)
-    , has_small_strain(
-        std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))
+    , laws(*families, laws)
+    , has_small_strain(this->laws.are_linear())
   {
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      law_of_node.push_back(this->laws.at(families->material[i]).get());
     this->initialize(last);
+  }
+
+  template <int dim>
+  ExpandedLaw<dim> ConsistentForce<dim>::law_at(const LocalIndex i, const unsigned int p) const
+  {
+    return laws.at(i, points->offset_of(i, p));
   }
 
   template <int dim>
@@ -64,9 +64,8 @@ namespace perideal
       deformation = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       deformation[d][d] += 1.;
-    const HyperelasticLaw<dim> &law = *law_of_node[i];
-    points->turn_into_stress(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
-      return law.stress(gradient);
+    points->turn_into_stress(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
+      return law_at(i, p).stress(gradient);
     });
     add_columns<dim>(deformation * bonds->stress(i), moments->gradient(i));
     moments->force(i) = bonds->force(i);
@@ -92,8 +91,8 @@ namespace perideal
     double result = has_small_strain ? bonds->energy_small() : bonds->energy_finite();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       if (const double of_point = points->weight(i); of_point > 0)
-        points->visit(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
-          result += of_point * law_of_node[i]->energy(gradient);
+        points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
+          result += of_point * law_at(i, p).energy(gradient);
         });
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }
@@ -121,7 +120,7 @@ namespace perideal
   std::size_t ConsistentForce<dim>::memory_consumption() const
   {
     return this->breaking_memory() + points->memory_consumption() + last.memory_consumption() +
-           dealii::MemoryConsumption::memory_consumption(law_of_node);
+           laws.memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ConsistentForce)

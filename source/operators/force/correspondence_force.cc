@@ -24,11 +24,9 @@ namespace perideal
                                                 const LawsByMaterial<dim>                      &laws)
     : BreakingBonds<dim>(families, BondList(*families), false)
     , rows(rows)
-    , laws(laws)
+    , laws(*families, laws)
     , is_gone(bonds.n_slots(), false)
   {
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      law_of_node.push_back(this->laws.at(families->material[i]).get());
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         is_gone[slot] = bonds.neighbour[slot] == i;
@@ -72,8 +70,8 @@ namespace perideal
     rows->read(displacement);
     if (this->can_break())
       break_bonds();
-    rows->forces(
-      force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) { return law_of_node[i]->stress(g); });
+    rows->forces(force,
+                 [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) { return law(i).stress(g); });
     force *= -1.;
   }
 
@@ -82,7 +80,7 @@ namespace perideal
   {
     NodalVector stresses(families->make_partitioner(n_stresses));
     rows->visit_gradients([&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
-      const auto stress = law_of_node[i]->cauchy_stress(g);
+      const auto stress = law(i).cauchy_stress(g);
       for (unsigned int k = 0; k < n_stresses; ++k)
         stresses.local_element(n_stresses * i + k) = stress.access_raw_entry(k);
     });
@@ -137,7 +135,7 @@ namespace perideal
       if (next == nodes.end() || *next != i)
         return;
       ++next;
-      result += families->volume[i] * law_of_node[i]->energy(g) + rows->penalty_energy(i, g);
+      result += families->volume[i] * law(i).energy(g) + rows->penalty_energy(i, g);
     });
     return result;
   }
@@ -148,7 +146,7 @@ namespace perideal
     rows->read(last);
     double result = 0;
     rows->visit_gradients([&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
-      result += families->volume[i] * law_of_node[i]->energy(g) + rows->penalty_energy(i, g);
+      result += families->volume[i] * law(i).energy(g) + rows->penalty_energy(i, g);
     });
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }
@@ -190,8 +188,7 @@ namespace perideal
   template <int dim>
   std::size_t CorrespondenceForce<dim>::memory_consumption() const
   {
-    return this->breaking_memory() + rows->memory_consumption() +
-           dealii::MemoryConsumption::memory_consumption(law_of_node) +
+    return this->breaking_memory() + rows->memory_consumption() + laws.memory_consumption() +
            dealii::MemoryConsumption::memory_consumption(is_gone) + last.memory_consumption();
   }
 

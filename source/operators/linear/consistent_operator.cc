@@ -62,8 +62,54 @@ namespace perideal
                                  [Symmetric::axes(q).first][Symmetric::axes(q).second];
             solids.push_back(matrix);
             tensors.push_back(of);
+            const auto held = solid_of(families->material[i]).stress_of_expansion();
+            expansion.stress.emplace_back();
+            for (unsigned int p = 0; p < n_pairs; ++p)
+              expansion.stress.back()[p] = held[Symmetric::axes(p).first][Symmetric::axes(p).second];
+            expansion.work.push_back(solid_of(families->material[i]).energy_of_expansion());
           }
         solid_of_node.push_back(inserted.first->second);
+      }
+  }
+
+  template <int dim>
+  void
+  ConsistentOperator<dim>::take_expansion(const LocalIndex i, Pairs &stress, Pairs *const of_moment) const
+  {
+    const Pairs &held  = expansion.stress[solid_of_node[i]];
+    const double share = bonds->share(i), work = expansion.work[solid_of_node[i]];
+    const double volume = share * moments->cell_polynomials().volumes()[i];
+    const double mean   = expansion.of_cells->mean[i];
+    const auto  &moment = expansion.of_cells->moment[i];
+
+    dealii::Tensor<2, dim> inverse;
+    for (unsigned int p = 0; p < n_pairs; ++p)
+      {
+        const auto [a, b] = Symmetric::axes(p);
+        inverse[a][b] = inverse[b][a] = inverse_moment[i][p];
+      }
+    const dealii::Tensor<1, dim> slope = inverse * moment;
+
+    const auto times_held = [&](const NodeRecord *t) {
+      double sum = 0;
+      for (unsigned int p = 0; p < n_pairs; ++p)
+        {
+          const auto [a, b] = Symmetric::axes(p);
+          sum += held[p] * (a == b ? t[a].value[a] : t[b].value[a] + t[a].value[b]);
+        }
+      return sum;
+    };
+    // Half of e^2 times the work less e eps:held, with e and eps linear in the cell.
+    double energy = volume * mean * (mean * work - times_held(moments->gradient(i)));
+    for (unsigned int k = 0; k < dim; ++k)
+      energy += share * slope[k] * (moment[k] * work - times_held(moments->moment(i) + dim * k));
+    expansion.energy += 0.5 * energy;
+
+    for (unsigned int p = 0; p < n_pairs; ++p)
+      {
+        stress[p] -= volume * mean * held[p];
+        for (unsigned int k = 0; k < dim; ++k)
+          of_moment[k][p] -= moment[k] * held[p];
       }
   }
 

@@ -67,7 +67,6 @@ namespace perideal
         stress_of(strain, stress);
         for (unsigned int p = 0; p < n_pairs; ++p)
           stress[p] = volume * stress[p] + bonds->stress(i, p);
-        to_columns<dim>(stress, g);
 
         Pairs of_moment[dim];
         for (unsigned int k = 0; k < dim; ++k)
@@ -75,6 +74,9 @@ namespace perideal
             to_pairs<dim>(h + dim * k, strain);
             stress_of(strain, of_moment[k]);
           }
+        if (expansion.counts)
+          take_expansion(i, stress, of_moment);
+        to_columns<dim>(stress, g);
         for (unsigned int k = 0; k < dim; ++k)
           {
             stress = {};
@@ -99,6 +101,8 @@ namespace perideal
                                       const typename GradientMoments<dim>::AtFaces at_faces) const
   {
     moments->read(displacement, at_faces);
+    expansion.counts = expansion.of_cells && at_faces == GradientMoments<dim>::AtFaces::values;
+    expansion.energy = 0.;
     if (deformed)
       {
         deformed->sum_over_bonds();

@@ -18,6 +18,7 @@ namespace perideal
     : rows(rows)
     , is_linear(
         std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); }))
+    , families(families)
   {
     this->partitioner = families->make_partitioner(dim);
     this->reports.resize(families->n_owned());
@@ -77,18 +78,55 @@ namespace perideal
   void CorrespondenceTangent<dim>::vmult(NodalVector &force, const NodalVector &displacement) const
   {
     rows->read(displacement);
-    constexpr int n = dim * dim;
+    rows->forces(force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) { return stress(i, g); });
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> CorrespondenceTangent<dim>::stress(const LocalIndex              i,
+                                                            const dealii::Tensor<2, dim> &g) const
+  {
+    constexpr int          n = dim * dim;
+    const Moduli          &A = moduli[moduli_of[i]];
+    dealii::Tensor<2, dim> result;
+    for (int row = 0; row < n; ++row)
+      {
+        double sum = 0;
+        for (int column = 0; column < n; ++column)
+          sum += A[n * row + column] * g[column / dim][column % dim];
+        result[row / dim][row % dim] = sum;
+      }
+    return result;
+  }
+
+  template <int dim>
+  void CorrespondenceTangent<dim>::set_expansion(const SolidOf<dim>                              &solid_of,
+                                                 const std::shared_ptr<const CellExpansion<dim>> &of_cells)
+  {
+    expansion.of_cells = of_cells;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      {
+        const ElasticSolid<dim> solid = solid_of(families->material[i]);
+        expansion.stress.push_back(solid.stress_of_expansion());
+        expansion.work.push_back(solid.energy_of_expansion());
+      }
+  }
+
+  template <int dim>
+  void CorrespondenceTangent<dim>::internal_force(NodalVector &force, const NodalVector &displacement) const
+  {
+    if (!expansion.of_cells)
+      {
+        vmult(force, displacement);
+        return;
+      }
+    expansion.energy = 0.;
+    rows->read(displacement);
     rows->forces(force, [&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
-      const Moduli          &A = moduli[moduli_of[i]];
-      dealii::Tensor<2, dim> result;
-      for (int row = 0; row < n; ++row)
-        {
-          double sum = 0;
-          for (int column = 0; column < n; ++column)
-            sum += A[n * row + column] * g[column / dim][column % dim];
-          result[row / dim][row % dim] = sum;
-        }
-      return result;
+      const double                 e    = expansion.of_cells->mean[i];
+      const dealii::Tensor<2, dim> held = expansion.stress[i];
+      expansion.energy +=
+        0.5 * families->volume[i] * e * (e * expansion.work[i] - dealii::scalar_product(held, g));
+      return stress(i, g) - e * held;
     });
   }
 

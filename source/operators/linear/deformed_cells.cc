@@ -25,7 +25,7 @@ namespace perideal
         add_columns(to_tensor<dim>(moments->gradient(i)), deformations.data() + dim * i);
         bond_stress[i] = bonds->stress(i);
         points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-          moduli[i][p] = pack(force.law(i).tangent(gradient));
+          moduli[i][p] = pack(force.law_at(i, p).tangent(gradient));
         });
       }
     std::vector<double> buffer;

@@ -219,19 +219,19 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>>
-  GradientMoments<dim>::point_values(const NodalVector &displacement) const
+  std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::values_at(const std::vector<Place> &places,
+                                                                      const NodalVector &displacement) const
   {
     read_polynomials(displacement);
-    std::vector<dealii::Tensor<1, dim>>   result(n_owned_cells);
+    std::vector<dealii::Tensor<1, dim>>   result;
     std::array<double, Monomials<dim>::n> monomial;
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+    for (const auto &[cell, point] : places)
       {
-        // Nodes lie at centroids, unless they were perturbed.
-        Monomials<dim>::evaluate(polynomials->graph().position[i] - polynomials->centroids()[i], monomial);
+        Monomials<dim>::evaluate(point - polynomials->centroids()[cell], monomial);
+        result.emplace_back();
         for (unsigned int m = 0; m < n_coefficients; ++m)
           for (int a = 0; a < dim; ++a)
-            result[i][a] += monomial[m] * work.polynomial[n_coefficients * i + m].value[a];
+            result.back()[a] += monomial[m] * work.polynomial[n_coefficients * cell + m].value[a];
       }
     return result;
   }

@@ -7,6 +7,7 @@
 #include <perideal/operators/weights/cell_points.h>
 #include <perideal/operators/weights/consistent_bonds.h>
 #include <perideal/operators/weights/gradient_moments.h>
+#include <perideal/operators/weights/laws_of_nodes.h>
 
 #include <memory>
 #include <vector>
@@ -54,7 +55,7 @@ namespace perideal
     std::size_t                         memory_consumption() const override;
 
     std::vector<dealii::Tensor<2, dim>> gradients() const override;
-    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return *law_of_node[i]; }
+    ExpandedLaw<dim>                    law(const LocalIndex i) const override { return laws.mean(i); }
 
     /// Brings gradients, moments and bonds to the last compute() again; others may have used them since.
     /// Collective.
@@ -64,6 +65,17 @@ namespace perideal
     bool is_linear() const { return has_small_strain; }
 
     const std::shared_ptr<const CellPoints<dim>> &cell_points() const { return points; }
+
+    /// The law at a point of an owned node's cell.
+    ExpandedLaw<dim> law_at(const LocalIndex i, const unsigned int p) const;
+
+    /// From now on cells expand freely by what they have then.
+    /// @param laws_in_space of materials in plane strain
+    void expand(const LawsByMaterial<3>                         &laws_in_space,
+                const std::shared_ptr<const CellExpansion<dim>> &of_cells)
+    {
+      laws.expand(*families, laws_in_space, of_cells);
+    }
 
     /// Scales the energy of cells and of the bonds that stabilise them, here and in operators that share
     /// these.
@@ -87,8 +99,7 @@ namespace perideal
     std::shared_ptr<const GradientMoments<dim>> moments;
     std::shared_ptr<ConsistentBonds<dim>>       bonds;
     std::shared_ptr<const CellPoints<dim>>      points;
-    LawsByMaterial<dim>                         laws;
-    std::vector<const HyperelasticLaw<dim> *>   law_of_node;
+    LawsOfNodes<dim>                            laws;
     bool                                        has_small_strain;
     NodalVector                                 last;
     std::vector<dealii::Tensor<1, dim>>         support;

@@ -3,7 +3,7 @@
 #define perideal_operators_force_continuum_force_h
 
 #include <perideal/base/types.h>
-#include <perideal/parameters/hyperelastic_law.h>
+#include <perideal/parameters/expanded_law.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -22,8 +22,8 @@ namespace perideal
     /// The displacement gradient of owned nodes at the last compute() of the force [-]. Collective.
     virtual std::vector<dealii::Tensor<2, dim>> gradients() const = 0;
 
-    /// The law of an owned node.
-    virtual const HyperelasticLaw<dim> &law(const LocalIndex i) const = 0;
+    /// The law of an owned node; in a cell that would expand freely that of its mean expansion.
+    virtual ExpandedLaw<dim> law(const LocalIndex i) const = 0;
 
     /// Cauchy stresses of owned nodes at the last compute() [Pa]. Collective.
     std::vector<dealii::SymmetricTensor<2, 3>> cauchy_stresses() const

@@ -5,6 +5,7 @@
 #include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/operators/force/continuum_force.h>
 #include <perideal/operators/weights/correspondence_rows.h>
+#include <perideal/operators/weights/laws_of_nodes.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -61,7 +62,15 @@ namespace perideal
     }
 
     std::vector<dealii::Tensor<2, dim>> gradients() const override;
-    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return *law_of_node[i]; }
+    ExpandedLaw<dim>                    law(const LocalIndex i) const override { return laws.mean(i); }
+
+    /// From now on nodes expand freely by the mean of their cells.
+    /// @param laws_in_space of materials in plane strain
+    void expand(const LawsByMaterial<3>                         &laws_in_space,
+                const std::shared_ptr<const CellExpansion<dim>> &of_cells)
+    {
+      laws.expand(*families, laws_in_space, of_cells);
+    }
 
     /// Nodes of all ranks whose bonds span no space any more. Collective.
     GlobalIndex n_without_gradient() const;
@@ -82,11 +91,10 @@ namespace perideal
     std::vector<double> utilisations() const;
     double              energy_of(const std::vector<LocalIndex> &nodes) const;
 
-    std::shared_ptr<CorrespondenceRows<dim>>  rows;
-    LawsByMaterial<dim>                       laws;
-    std::vector<const HyperelasticLaw<dim> *> law_of_node;
-    Utilisation                               utilisation;
-    std::vector<bool>                         is_gone;
+    std::shared_ptr<CorrespondenceRows<dim>> rows;
+    LawsOfNodes<dim>                         laws;
+    Utilisation                              utilisation;
+    std::vector<bool>                        is_gone;
     /// Owned nodes whose families lost bonds.
     std::vector<LocalIndex> changed;
 

@@ -87,7 +87,7 @@ namespace perideal
 
     /// Of cells, and in the zone, where faces open that cells do not know, by intact_gradients().
     std::vector<dealii::Tensor<2, dim>> gradients() const override;
-    const HyperelasticLaw<dim>         &law(const LocalIndex i) const override { return cells->law(i); }
+    ExpandedLaw<dim>                    law(const LocalIndex i) const override { return cells->law(i); }
 
     /// What there is besides bond_force(): the cells, the weights of the bonds as they are scaled, and where
     /// which of them counts.

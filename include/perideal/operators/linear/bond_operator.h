@@ -39,6 +39,10 @@ namespace perideal
     /// internal_force(); none where the operator carries none.
     virtual std::vector<dealii::Tensor<1, dim>> support_forces() const { return {}; }
 
+    /// What a free expansion of the cells adds to half the work of the forces of the last internal_force(),
+    /// so that it becomes the energy stored, on this rank [J].
+    virtual double energy_of_expansion() const { return 0.; }
+
     /// The dim x dim blocks on the diagonal of K, by owned node [N/m]. Collective.
     virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
 

@@ -3,6 +3,7 @@
 #define perideal_operators_linear_consistent_operator_h
 
 #include <perideal/base/symmetric_pairs.h>
+#include <perideal/boundary/cell_expansion.h>
 #include <perideal/operators/linear/deformed_cells.h>
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/weights/consistent_bonds.h>
@@ -42,6 +43,13 @@ namespace perideal
                        const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
                        const SolidOf<dim>                                &solid_of);
 
+    /// From now on internal_force() takes strains as what is above a free expansion of the cells, as it is
+    /// then.
+    void set_expansion(const std::shared_ptr<const CellExpansion<dim>> &of_cells)
+    {
+      expansion.of_cells = of_cells;
+    }
+
     /// @param force a ConsistentForce of the same moments and bonds
     void linearise(const BondForce<dim> &force, const bool secant = false) override;
 
@@ -55,6 +63,8 @@ namespace perideal
 
     /// Trace of the mean strain of the last vmult() or internal_force() of the body at rest, by owned node.
     std::vector<double> dilatation() const override;
+
+    double energy_of_expansion() const override { return expansion.energy; }
 
     /// Forces that the supports exert on the body at the prescribed face values
     /// [N], by entry, after internal_force().
@@ -73,6 +83,9 @@ namespace perideal
                const typename GradientMoments<dim>::AtFaces at_faces) const;
     void sum_over_bonds() const;
     void turn_into_stress() const;
+    /// Takes the stress that a free expansion would make in a cell that is held out of its stress, the mean
+    /// times the volume, and out of C times the moments, and adds what it does to the energy.
+    void take_expansion(const LocalIndex i, Pairs &stress, Pairs *of_moment) const;
 
     /// Rows of the gradients, with those of the ghosts that bonds reach. Collective.
     GradientRows<dim> make_rows() const;
@@ -97,6 +110,18 @@ namespace perideal
     std::vector<std::array<Pairs, n_pairs>> solids;
     std::vector<dealii::Tensor<4, dim>>     tensors;
     std::vector<LocalIndex>                 solid_of_node;
+    struct Expansion
+    {
+      /// By number: the stress of a free expansion of 1 that is held [Pa], and twice its energy [J/m^3].
+      std::vector<Pairs>  stress;
+      std::vector<double> work;
+      /// Null: cells expand by nothing.
+      std::shared_ptr<const CellExpansion<dim>> of_cells = nullptr;
+      /// Whether it counts in what is applied now, and its energy_of_expansion().
+      bool   counts = false;
+      double energy = 0;
+    };
+    mutable Expansion expansion;
     /// Inverse of int (x - x_i) (x) (x - x_i) [1/m^5], by owned node.
     std::vector<Pairs> inverse_moment;
 

@@ -24,10 +24,17 @@ namespace perideal
                           const std::shared_ptr<const CorrespondenceRows<dim>> &rows,
                           const LawsByMaterial<dim>                            &laws);
 
+    /// From now on internal_force() takes strains as what is above a free expansion, the mean of each cell as
+    /// it is then.
+    void set_expansion(const SolidOf<dim>                              &solid_of,
+                       const std::shared_ptr<const CellExpansion<dim>> &of_cells);
+
     /// @param force a CorrespondenceForce of the same rows
     void linearise(const BondForce<dim> &force, const bool secant = false) override;
 
-    void vmult(NodalVector &force, const NodalVector &displacement) const override;
+    void   vmult(NodalVector &force, const NodalVector &displacement) const override;
+    void   internal_force(NodalVector &force, const NodalVector &displacement) const override;
+    double energy_of_expansion() const override { return expansion.energy; }
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
@@ -41,12 +48,26 @@ namespace perideal
 
     static Moduli          flat(const dealii::Tensor<4, dim> &tangent);
     dealii::Tensor<4, dim> tangent_of(const LocalIndex i) const;
+    dealii::Tensor<2, dim> stress(const LocalIndex i, const dealii::Tensor<2, dim> &gradient) const;
 
     std::shared_ptr<const CorrespondenceRows<dim>> rows;
     /// dP/dF [Pa]: by material where laws are linear or the body at rest, else by node.
     std::vector<Moduli>     moduli;
     std::vector<LocalIndex> moduli_of;
     bool                    is_linear;
+
+    struct Expansion
+    {
+      /// By owned node: the stress of a free expansion of 1 that is held [Pa], and twice its energy [J/m^3].
+      std::vector<dealii::SymmetricTensor<2, dim>> stress;
+      std::vector<double>                          work;
+      /// Null: cells expand by nothing.
+      std::shared_ptr<const CellExpansion<dim>> of_cells = nullptr;
+      /// energy_of_expansion() of the last internal_force().
+      double energy = 0;
+    };
+    std::shared_ptr<const Families<dim>> families;
+    mutable Expansion                    expansion;
   };
 } // namespace perideal
 

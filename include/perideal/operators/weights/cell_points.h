@@ -82,6 +82,13 @@ namespace perideal
       return result;
     }
 
+    /// With whose product with a first moment what is linear in an owned cell is above its mean at a point.
+    dealii::Tensor<1, dim> offset_of(const LocalIndex i, const unsigned int p) const
+    {
+      const dealii::Tensor<1, dim> row = dealii::Tensor<2, dim>(offsets(i))[p / 2];
+      return p % 2 == 0 ? row : -row;
+    }
+
     /// Calls visit(p, gradient) for the points of an owned cell, of the gradients and moments read.
     template <typename Visit>
     void visit(const GradientMoments<dim> &moments, const LocalIndex i, const Visit &visit) const

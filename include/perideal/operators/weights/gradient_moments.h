@@ -115,8 +115,15 @@ namespace perideal
                                                         const double      time,
                                                         NodalVector      &force) const;
 
-    /// Values of the polynomials at the nodes [m], by owned node, of a displacement of means. Collective.
-    std::vector<dealii::Tensor<1, dim>> point_values(const NodalVector &displacement) const;
+    /// A point of an owned cell.
+    struct Place
+    {
+      LocalIndex         cell;
+      dealii::Point<dim> point;
+    };
+    /// Values of the polynomials at points [m], of a displacement of means. Collective.
+    std::vector<dealii::Tensor<1, dim>> values_at(const std::vector<Place> &places,
+                                                  const NodalVector        &displacement) const;
 
     std::size_t memory_consumption() const;
 

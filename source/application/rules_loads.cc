@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/application/rules.h>
+
+#include <algorithm>
+
+// Rules of loads: which models and solvers take them.
+
+namespace perideal
+{
+  namespace
+  {
+    using Scene = SceneParameters;
+
+    const char *const temperature = "Thermal strain/Temperature";
+
+    bool is_heated(const Scene &scene)
+    {
+      return !scene.loads.temperature.empty();
+    }
+
+    bool expands(const MaterialProperties &material)
+    {
+      return material.thermal_expansion != 0.;
+    }
+
+    std::vector<Rule> thermal_rules()
+    {
+      return {
+        refuse(
+          temperature,
+          "Material/Model other than correspondence, Material/Form other than consistent",
+          [](const Scene &s) {
+            return is_heated(s) && !s.model.is_consistent() && !s.model.is_correspondence();
+          },
+          "bonds of this model compare lengths with those at rest, and no length is kept for a heated bond",
+          "none for this model",
+          "set Material/Form = consistent, or Material/Model = correspondence"),
+        refuse(
+          temperature,
+          "Material/Fracture energy, Critical stretch or Tensile strength with Solver/Name other than static",
+          [](const Scene &s) { return is_heated(s) && can_break(s); },
+          "bonds that may break are judged by their lengths, which heating changes without a stress",
+          "none where bonds may break"),
+        refuse(
+          temperature,
+          "Boundary conditions/Displacement treatment = mirror | surface nodes",
+          [](const Scene &s) {
+            return is_heated(s) && (s.loads.has_mirror() || s.loads.has_surface_nodes());
+          },
+          "nodes without a cell have no temperature",
+          "none for Boundary conditions/Displacement treatment = ...",
+          "take automatic | layer"),
+        refuse(
+          temperature,
+          "Solver/Control = gauge | dissipated energy",
+          [](const Scene &s) { return is_heated(s) && s.solver.is_controlled(); },
+          "the control of load steps scales loads and supports, and not the temperature",
+          "none for Solver/Control"),
+        refuse(
+          temperature,
+          "Output/Boundary stress",
+          [](const Scene &s) { return is_heated(s) && !s.boundary_stress.empty(); },
+          "the recovery of stresses at a boundary takes no thermal strain",
+          "none with Output/Boundary stress"),
+        refuse(
+          temperature,
+          "Cracks/Energy release rates with Precracks/, Dimension = 2, Solver/Name other than dynamics",
+          [](const Scene &s) {
+            return is_heated(s) && s.cracks.energy_release_rates && !s.precracks.cracks.empty() &&
+                   s.dimension == 2 && !s.solver.is_dynamic();
+          },
+          "the domain integral takes no thermal strain",
+          "none with Cracks/Energy release rates"),
+        refuse(
+          temperature,
+          "Comparison/FEM = true, Material/Model = correspondence, Solver/Name = quasi static",
+          [](const Scene &s) {
+            return is_heated(s) && s.comparison.fem && s.model.is_correspondence() &&
+                   s.solver.is_quasi_static();
+          },
+          "finite elements at finite strain take no thermal strain",
+          "none with Comparison/FEM for this model and solver"),
+        refuse(
+          temperature,
+          "Comparison/Stiffness = families",
+          [](const Scene &s) { return is_heated(s) && s.comparison.by_families(); },
+          "of families the stiffness in the plane is measured, and heating needs that in space",
+          "none for Comparison/Stiffness = families"),
+        warn(
+          temperature,
+          "Material/Thermal expansion = 0",
+          [](const Scene &s) {
+            const auto &groups = s.material.groups;
+            return is_heated(s) && !expands(s.material.body) &&
+                   std::none_of(
+                     groups.begin(), groups.end(), [](const auto &group) { return expands(group.second); });
+          },
+          "Thermal strain/Temperature has no effect here; no material has a Thermal expansion"),
+      };
+    }
+  } // namespace
+
+  std::vector<Rule> load_rules()
+  {
+    return thermal_rules();
+  }
+} // namespace perideal
