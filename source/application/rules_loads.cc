@@ -98,10 +98,44 @@ namespace perideal
           "Thermal strain/Temperature has no effect here; no material has a Thermal expansion"),
       };
     }
+    std::vector<std::string> sliding_where(const Scene &scene, const bool is_broken)
+    {
+      std::vector<std::string> result;
+      for (const auto &condition : scene.loads.conditions)
+        if (is_broken && !condition.normal_displacement.empty())
+          result.push_back("Boundary conditions/" + condition.name + "/u_n");
+      return result;
+    }
+
+    std::vector<Rule> sliding_rules()
+    {
+      return {
+        refuse_each(
+          "Boundary conditions/NAME/u_n",
+          "Boundary conditions/Displacement treatment other than face value",
+          [](const Scene &s) {
+            return sliding_where(s, s.loads.displacement_treatment != DisplacementTreatment::face_value);
+          },
+          "Boundary conditions/Displacement treatment = ... holds components along the axes",
+          "none for this treatment",
+          "set Material/Form = consistent, or hold a plane along the axes by u_x, u_y or u_z = 0"),
+        refuse_each(
+          "Boundary conditions/NAME/u_n",
+          "Solver/Linear solver = direct | trilinos cg | trilinos gmres",
+          [](const Scene &s) { return sliding_where(s, solves_equations(s) && s.solver.assembles()); },
+          "the matrix of faces that slide in any direction is not assembled",
+          "none for this linear solver",
+          "set Solver/Linear solver = automatic, or hold a plane along the axes by u_x, u_y or u_z = 0"),
+      };
+    }
   } // namespace
 
   std::vector<Rule> load_rules()
   {
-    return thermal_rules();
+    std::vector<Rule> all = thermal_rules();
+    for (const auto part : {sliding_rules})
+      for (Rule &rule : part())
+        all.push_back(std::move(rule));
+    return all;
   }
 } // namespace perideal

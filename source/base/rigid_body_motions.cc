@@ -48,9 +48,18 @@ namespace perideal
   template <int dim>
   void RigidBodyMotions<dim>::hold(const dealii::Point<dim> &point, const unsigned int component)
   {
+    dealii::Tensor<1, dim> direction;
+    direction[component] = 1.;
+    hold_along(point, direction);
+  }
+
+  template <int dim>
+  void RigidBodyMotions<dim>::hold_along(const dealii::Point<dim>     &point,
+                                         const dealii::Tensor<1, dim> &direction)
+  {
     Coefficients row;
     for (unsigned int motion = 0; motion < n_motions; ++motion)
-      row[motion] = basic_motion(motion, point)[component];
+      row[motion] = basic_motion(motion, point) * direction;
     for (unsigned int a = 0; a < n_motions; ++a)
       for (unsigned int b = 0; b < n_motions; ++b)
         gram[a][b] += row[a] * row[b];

@@ -98,7 +98,8 @@ namespace perideal
                     .given("also by Boundary conditions/" + other)
                     .hint("name every boundary in one condition for each component");
                 };
-                if (condition.holds(d) && !holder.insert({{id, d}, condition.name}).second)
+                if ((condition.holds(d) || condition.slides) &&
+                    !holder.insert({{id, d}, condition.name}).second)
                   complain("the displacement", holder.at({id, d}));
                 if (condition.traction[d].is_present() && !puller.insert({{id, d}, condition.name}).second)
                   complain("the traction", puller.at({id, d}));

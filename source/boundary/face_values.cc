@@ -14,16 +14,36 @@ namespace perideal
   {
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Entry entry{p, points[p].point, points[p].area.norm(), {}, {}, {}};
+        Entry entry{p, points[p].point, points[p].area.norm(), {}, free, {}, {}, {}};
         entry.condition.fill(free);
         for (unsigned int k = 0; k < n_conditions; ++k)
           if (loads.conditions[k].acts_on(points[p].boundary))
-            for (int d = 0; d < dim; ++d)
-              if (loads.conditions[k].holds(d))
-                entry.condition[d] = k;
-        if (std::any_of(
-              entry.condition.begin(), entry.condition.end(), [](const auto k) { return k != free; }))
+            {
+              for (int d = 0; d < dim; ++d)
+                if (loads.conditions[k].holds(d))
+                  entry.condition[d] = k;
+              if (loads.conditions[k].slides)
+                entry.sliding_condition = k;
+            }
+        if (entry.sliding_condition != free || std::any_of(entry.condition.begin(),
+                                                           entry.condition.end(),
+                                                           [](const auto k) { return k != free; }))
           list.push_back(entry);
+      }
+    set_normals(points);
+  }
+
+  template <int dim>
+  void FaceValues<dim>::set_normals(const std::vector<BoundaryPoint<dim>> &points)
+  {
+    for (std::size_t first = 0, last = 0; first < list.size(); first = last)
+      {
+        dealii::Tensor<1, dim> sum;
+        for (; last < list.size() && points[list[last].point].face == points[list[first].point].face; ++last)
+          sum += points[list[last].point].area;
+        for (std::size_t e = first; e < last; ++e)
+          if (list[e].sliding_condition != free)
+            list[e].normal = sum / sum.norm();
       }
   }
 
@@ -97,8 +117,8 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> result(n_conditions);
     for (std::size_t e = 0; e < list.size(); ++e)
       for (int d = 0; d < dim; ++d)
-        if (list[e].condition[d] != free)
-          result[list[e].condition[d]][d] += forces[e][d] - (borne.empty() ? 0. : borne[e][d]);
+        if (const auto k = std::min(list[e].condition[d], list[e].sliding_condition); k != free)
+          result[k][d] += forces[e][d] - (borne.empty() ? 0. : borne[e][d]);
     for (auto &sum : result)
       sum = dealii::Utilities::MPI::sum(sum, communicator);
     return result;

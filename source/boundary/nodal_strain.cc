@@ -22,6 +22,8 @@ namespace perideal
       {
         const BoundaryPoint<dim> &point        = gradient.boundary_points()[entry.point];
         const auto                interpolated = gradient.boundary_value(entry.point, all);
+        gradients[point.node] -=
+          outer_product((interpolated * entry.normal) * entry.normal, point.area) / nodes.volume[point.node];
         for (unsigned int d = 0; d < dim; ++d)
           if (entry.condition[d] != FaceValues<dim>::free)
             gradients[point.node][d] +=

@@ -51,6 +51,9 @@ namespace perideal
           const BoundaryCondition<dim> &condition = loads.conditions[k];
           if (condition.prescribes_traction())
             traction += Loads<dim>::traction(condition, face.centre, face.normal, time);
+          // What pulls along the normal is not known.
+          if (condition.slides)
+            is_held.fill(true);
           for (unsigned int d = 0; d < dim; ++d)
             if (condition.displacement[d].is_present())
               {

@@ -5,14 +5,19 @@
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/component_mask.h>
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
+#include <deal.II/numerics/vector_tools_constraints.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace perideal
 {
@@ -40,6 +45,45 @@ namespace perideal
     };
   } // namespace
 
+  namespace
+  {
+    /// Ids of the boundaries along whose normals nothing moves.
+    template <int dim>
+    std::set<dealii::types::boundary_id> sliding_boundaries(const Mesh<dim> &mesh, const Loads<dim> &loads)
+    {
+      std::set<dealii::types::boundary_id> result;
+      for (const BoundaryCondition<dim> &condition : loads.conditions)
+        if (condition.slides)
+          for (const std::string &boundary : condition.boundaries)
+            result.insert(mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary"));
+      return result;
+    }
+
+    /// Holds the vertices of these boundaries along the normals of their faces.
+    template <int dim>
+    void hold_sliding(const dealii::DoFHandler<dim> &unknowns,
+                      const Mesh<dim>               &mesh,
+                      const Loads<dim>              &loads,
+                      RigidBodyMotions<dim>         &motions)
+    {
+      const auto sliding = sliding_boundaries(mesh, loads);
+      if (sliding.empty())
+        return;
+      const dealii::FE_Nothing<dim> no_element;
+      dealii::FEFaceValues<dim>     values(
+        no_element, dealii::QMidpoint<dim - 1>(), dealii::update_normal_vectors);
+      for (const auto &cell : unknowns.get_triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() && sliding.count(cell->face(f)->boundary_id()) > 0)
+              {
+                values.reinit(cell, f);
+                for (const unsigned int v : cell->face(f)->vertex_indices())
+                  motions.hold_along(cell->face(f)->vertex(v), values.normal_vector(0));
+              }
+    }
+  } // namespace
+
   template <int dim>
   void add_prescribed_displacements(const dealii::Mapping<dim>        &mapping,
                                     const dealii::DoFHandler<dim>     &unknowns,
@@ -50,7 +94,7 @@ namespace perideal
   {
     for (const BoundaryCondition<dim> &condition : loads.conditions)
       {
-        if (!condition.prescribes_displacement())
+        if (!condition.prescribes_displacement() || condition.slides)
           continue;
         const PrescribedDisplacement<dim>                                   displacement(condition, time);
         std::map<dealii::types::boundary_id, const dealii::Function<dim> *> functions;
@@ -63,6 +107,8 @@ namespace perideal
         dealii::VectorTools::interpolate_boundary_values(
           mapping, unknowns, functions, constraints, components);
       }
+    if (const auto sliding = sliding_boundaries(mesh, loads); !sliding.empty())
+      dealii::VectorTools::compute_no_normal_flux_constraints(unknowns, 0, sliding, constraints, mapping);
   }
 
   namespace
@@ -135,6 +181,8 @@ namespace perideal
   template <int dim>
   unsigned int pin_free_motions(const dealii::Mapping<dim>        &mapping,
                                 const dealii::DoFHandler<dim>     &unknowns,
+                                const Mesh<dim>                   &mesh,
+                                const Loads<dim>                  &loads,
                                 dealii::AffineConstraints<double> &constraints)
   {
     const MPI_Comm        communicator = unknowns.get_communicator();
@@ -146,6 +194,7 @@ namespace perideal
       for (unsigned int d = 0; d < dim; ++d)
         if (is_held(constraints, first + dim * i + d))
           motions.hold(points[i], d);
+    hold_sliding(unknowns, mesh, loads, motions);
 
     auto free_motions = motions.free_motions(communicator);
     if (free_motions.empty())

@@ -102,7 +102,7 @@ namespace perideal
     space.distribute();
     held = space.hanging_nodes();
     add_prescribed_displacements(space.geometry, space.unknowns, body, loads, time, held);
-    assembled.pins = pin_free_motions(space.geometry, space.unknowns, held);
+    assembled.pins = pin_free_motions(space.geometry, space.unknowns, body, loads, held);
     held.close();
     space.reinit(stiffness, held);
     space.reinit(right_hand_side);

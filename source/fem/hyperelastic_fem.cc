@@ -40,7 +40,7 @@ namespace perideal
   {
     held = space.hanging_nodes();
     add_prescribed_displacements(space.geometry, space.unknowns, body, loads, time, held);
-    pin_free_motions(space.geometry, space.unknowns, held);
+    pin_free_motions(space.geometry, space.unknowns, body, loads, held);
     held.close();
   }
 

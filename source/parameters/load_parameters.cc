@@ -61,6 +61,10 @@ namespace perideal
                             condition.displacement[d],
                             "Prescribed displacement along " + axes[d] +
                               " [m], a formula in x, y, z, t; empty: free");
+        prm.add_parameter("u_n",
+                          condition.normal_displacement,
+                          "Prescribed displacement along the normal of the boundary, whatever its direction "
+                          "[m]: 0, as in a plane of symmetry or on rollers; empty: none");
         for (unsigned int d = 0; d < 3; ++d)
           prm.add_parameter("v_" + axes[d],
                             condition.velocity[d],

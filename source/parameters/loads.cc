@@ -48,6 +48,36 @@ namespace perideal
       return std::any_of(functions.begin(), functions.end(), [](const auto &f) { return f.is_present(); });
     }
 
+    /// Whether a list of formulas gives one.
+    bool any_formula(const std::array<std::string, 3> &formulas)
+    {
+      return std::any_of(
+        formulas.begin(), formulas.end(), [](const std::string &text) { return !text.empty(); });
+    }
+
+    /// A boundary that slides takes no other condition.
+    void check_sliding(const BoundaryConditionText &text, const std::string &section)
+    {
+      double value = 1.;
+      try
+        {
+          value = dealii::Utilities::string_to_double(text.normal_displacement);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+        }
+      if (value != 0.)
+        throw InputError("a boundary may be held along its normal, and not be moved along it")
+          .parameter(section + "u_n")
+          .allowed("0; empty: none")
+          .hint("move a boundary by u_x, u_y and u_z");
+      if (any_formula(text.displacement) || any_formula(text.velocity) || any_formula(text.traction) ||
+          !text.pressure.empty())
+        throw InputError("a boundary that is held along its normal takes no other condition")
+          .parameter(section + "u_n")
+          .hint("remove u_n, or the others; give a plane along the axes u_x, u_y or u_z = 0 instead of u_n");
+    }
+
     template <int dim>
     BoundaryCondition<dim> make_condition(const BoundaryConditionText &text, const Tables &tables)
     {
@@ -59,6 +89,8 @@ namespace perideal
         throw InputError("the condition names no boundary")
           .parameter(section + "Boundary")
           .allowed("Gmsh physical names or ids, separated by commas");
+      if (result.slides = !text.normal_displacement.empty(); result.slides)
+        check_sliding(text, section);
       result.displacement = make_components<dim>(text.displacement, section + "u_", tables);
       result.velocity     = make_components<dim>(text.velocity, section + "v_", tables);
       result.traction     = make_components<dim>(text.traction, section + "t_", tables);
@@ -67,7 +99,7 @@ namespace perideal
       if (!result.prescribes_displacement() && !result.prescribes_traction())
         throw InputError("the condition prescribes nothing")
           .parameter("Boundary conditions/" + text.name)
-          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, Pressure");
+          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, u_n, Pressure");
       for (int d = 0; d < dim; ++d)
         {
           if (result.displacement[d].is_present() && result.velocity[d].is_present())
@@ -145,7 +177,7 @@ namespace perideal
   template <int dim>
   bool BoundaryCondition<dim>::prescribes_displacement() const
   {
-    return any_present(displacement) || any_present(velocity);
+    return any_present(displacement) || any_present(velocity) || slides;
   }
 
   template <int dim>

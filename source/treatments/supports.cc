@@ -57,6 +57,12 @@ namespace perideal
     const DirichletNodes<dim> at_faces(body.faces, body.loads, body.nodes.size());
     for (const auto &entry : at_faces.entries())
       motions.hold(entry.point, entry.component);
+    for (const BoundaryCondition<dim> &condition : body.loads.conditions)
+      if (condition.slides)
+        visit_faces(condition, body.faces, [&](const BoundaryFace<dim> &face) {
+          for (const dealii::Point<dim> &vertex : face.vertices)
+            motions.hold_along(vertex, face.normal);
+        });
   }
 
   template <int dim>

@@ -43,6 +43,8 @@ namespace perideal
 
     /// The displacement of @p point along @p component is prescribed.
     void hold(const dealii::Point<dim> &point, const unsigned int component);
+    /// The same along a direction.
+    void hold_along(const dealii::Point<dim> &point, const dealii::Tensor<1, dim> &direction);
 
     /// Orthonormal combinations that move no held component. Collective.
     std::vector<Coefficients> free_motions(MPI_Comm communicator) const;

@@ -38,6 +38,9 @@ namespace perideal
       double area;
       /// Condition that prescribes each component, or `free`.
       std::array<unsigned int, dim> condition;
+      /// Condition by which nothing moves along the normal of the face, or `free`; and that normal, else 0.
+      unsigned int           sliding_condition;
+      dealii::Tensor<1, dim> normal;
       /// Prescribed values [m]; 0 where free.
       dealii::Tensor<1, dim> value;
       /// What they have still to move [m].
@@ -71,6 +74,9 @@ namespace perideal
     double work(const std::vector<dealii::Tensor<1, dim>> &forces, MPI_Comm communicator) const;
 
   private:
+    /// Gives the points of a face that slides its mean normal.
+    void set_normals(const std::vector<BoundaryPoint<dim>> &points);
+
     std::vector<Entry>                  list;
     std::vector<dealii::Tensor<1, dim>> borne;
     unsigned int                        n_conditions = 0;

@@ -35,6 +35,8 @@ namespace perideal
   template <int dim>
   unsigned int pin_free_motions(const dealii::Mapping<dim>        &mapping,
                                 const dealii::DoFHandler<dim>     &unknowns,
+                                const Mesh<dim>                   &mesh,
+                                const Loads<dim>                  &loads,
                                 dealii::AffineConstraints<double> &constraints);
 
   /// Whether an unknown has a value of its own, given by a condition or a pin

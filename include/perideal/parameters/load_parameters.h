@@ -97,6 +97,8 @@ namespace perideal
     std::array<std::string, 3> traction;
     /// Pressure [Pa], positive towards the body.
     std::string pressure;
+    /// Prescribed displacement along the normal [m]: 0, or empty.
+    std::string normal_displacement;
   };
 
   /// Expressions of one subsection of "Point loads"; an empty one is no force.
@@ -175,6 +177,9 @@ namespace perideal
     std::array<SpaceTimeFunction<dim>, dim> velocity;
     std::array<SpaceTimeFunction<dim>, dim> traction;
     SpaceTimeFunction<dim>                  pressure;
+    /// Whether the boundary slides in its tangential plane: nothing moves along the normal, nothing pulls
+    /// along it.
+    bool slides = false;
 
     /// Whether it names a boundary.
     bool acts_on(const dealii::types::boundary_id boundary) const

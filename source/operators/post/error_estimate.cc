@@ -245,6 +245,13 @@ namespace perideal
         {
           const auto  &point    = points[entry.point];
           const Vector computed = value(point.node, point.point - cells.centroids()[point.node]);
+          if (entry.sliding_condition != FaceValues<dim>::free)
+            {
+              // The traction along the face is not judged.
+              held[entry.point].fill(true);
+              gap[entry.point] = (computed * entry.normal) * entry.normal;
+              continue;
+            }
           for (int d = 0; d < dim; ++d)
             if ((held[entry.point][d] = entry.condition[d] != FaceValues<dim>::free))
               gap[entry.point][d] = computed[d] - entry.value[d];

@@ -115,10 +115,13 @@ namespace perideal
     const auto &entries = prescribed->entries();
     for (std::size_t e = 0; e < entries.size(); e += FaceMoments<dim>::n_points)
       {
-        Held of_face{Lanes{}, e};
+        Held of_face{Lanes{}, Lanes{}, e};
         for (int d = 0; d < dim; ++d)
-          if (entries[e].condition[d] != FaceValues<dim>::free)
-            of_face.mask[d] = 1.;
+          {
+            of_face.normal[d] = entries[e].normal[d];
+            if (entries[e].condition[d] != FaceValues<dim>::free)
+              of_face.mask[d] = 1.;
+          }
         held[face_moments->first_boundary_face() + face_moments->boundary_points()[entries[e].point].face] =
           of_face;
       }
@@ -133,12 +136,13 @@ namespace perideal
     std::vector<dealii::Tensor<1, dim>> result;
     for (const auto &entry : entries)
       {
-        const BoundaryPoint<dim> &point = points[entry.point];
-        const LocalIndex          i     = point.node;
-        const auto                arm   = point.point - polynomials->centroids()[i];
+        const BoundaryPoint<dim> &point  = points[entry.point];
+        const LocalIndex          i      = point.node;
+        const auto                arm    = point.point - polynomials->centroids()[i];
+        const bool                slides = entry.sliding_condition != FaceValues<dim>::free;
         dealii::Tensor<1, dim>    force;
         for (int a = 0; a < dim; ++a)
-          if (entry.condition[a] != FaceValues<dim>::free)
+          if (slides || entry.condition[a] != FaceValues<dim>::free)
             for (int l = 0; l < dim; ++l)
               {
                 double pull = gradient(i)[l].value[a];
@@ -146,7 +150,7 @@ namespace perideal
                   pull += arm[k] * moment(i)[dim * k + l].value[a];
                 force[a] += pull * point.area[l];
               }
-        result.push_back(force);
+        result.push_back(slides ? (force * entry.normal) * entry.normal : force);
       }
     return result;
   }

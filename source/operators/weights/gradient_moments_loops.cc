@@ -117,12 +117,12 @@ namespace perideal
         integrate<dim>(face.moments, face.is_plane, polynomial, sums);
         if (!is_inner && next != held.end() && next->first == f)
           {
-            const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
+            const Held &of_face = next->second;
             for (unsigned int l = 0; l < dim; ++l)
               {
-                sums.gradient[l] *= free;
+                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
                 for (unsigned int k = 0; k < dim; ++k)
-                  sums.moment[k][l] *= free;
+                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
               }
             const auto &centre = face_moments->faces()[f].centre;
             for (unsigned int q = 0; at_faces != AtFaces::nothing && q < FaceMoments<dim>::n_points; ++q)
@@ -203,12 +203,12 @@ namespace perideal
           add(face, side, sums);
         if (n_sides == 1 && next != held.end() && next->first == f)
           {
-            const Lanes free = Lanes{1., 1., 1., 1.} - next->second.mask;
+            const Held &of_face = next->second;
             for (unsigned int l = 0; l < dim; ++l)
               {
-                sums.gradient[l] *= free;
+                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
                 for (unsigned int k = 0; k < dim; ++k)
-                  sums.moment[k][l] *= free;
+                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
               }
             ++next;
           }

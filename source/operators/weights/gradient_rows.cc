@@ -40,8 +40,9 @@ namespace perideal
     std::map<unsigned int, std::array<bool, dim>> held;
     for (const auto &entry : prescribed.entries())
       for (int d = 0; d < dim; ++d)
+        // A face that slides along no axis is taken for one that does: a preconditioner needs no more.
         held[face_moments.boundary_points()[entry.point].face][d] =
-          entry.condition[d] != FaceValues<dim>::free;
+          entry.condition[d] != FaceValues<dim>::free || entry.normal[d] * entry.normal[d] > 0.5;
     const auto &faces = face_moments.faces();
     first_side.assign(n_owned + 1, 0);
     for (const auto &face : faces)

@@ -138,10 +138,20 @@ namespace perideal
       double        offset[2][dim];
       const double *moments;
     };
-    /// Components of a boundary face that are prescribed: 1 where so.
+    /// Components of a boundary face that are prescribed: 1 where so. Of a face that slides the normal, along
+    /// which it does not move; else 0.
     struct Held
     {
-      Lanes       mask;
+      /// Takes what is prescribed out of a value at the face, or of what acts on it.
+      Lanes free_part(const Lanes &value) const
+      {
+        double along = 0;
+        for (int d = 0; d < dim; ++d)
+          along += value[d] * normal[d];
+        return (Lanes{1., 1., 1., 1.} - mask) * value - along * normal;
+      }
+
+      Lanes       mask, normal;
       std::size_t first_entry;
     };
 

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+angle = Pi/6;
+Include "quarter_plate.geo";
