@@ -29,6 +29,7 @@ set(perideal_sources
   parameters/elastic_symmetry.cc
   parameters/engineering_constants.cc
   parameters/expanded_law.cc
+  parameters/face_rotation.cc
   parameters/gauge_parameters.cc
   parameters/hencky.cc
   parameters/hyperelastic_law.cc

@@ -209,6 +209,7 @@ namespace perideal
                                       StretchFormula::bonds :
                                       StretchFormula::published;
     resolve_treatments(scene.loads, scene.model.is_consistent());
+    scene.loads.has_small_rotations = scene.solver.is_linear_static();
     if (const double own = scene.model.form_traits().defaults.horizon_factor;
         own > 0 && !has_fracture_zone(scene))
       scene.nodes.horizon_factor = own;

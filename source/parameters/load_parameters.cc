@@ -77,6 +77,19 @@ namespace perideal
         prm.add_parameter("Pressure",
                           condition.pressure,
                           "Pressure towards the body [Pa], a formula in x, y, z, t; empty: none");
+        prm.add_parameter(
+          "Rotation",
+          condition.rotation.angle,
+          "Angle by which the boundary is turned about an axis [rad], a formula in x, y, z, t; "
+          "it prescribes all components: exactly, and in Solver/Name = static what is linear "
+          "in the angle; empty: none");
+        prm.add_parameter("Axis point",
+                          condition.rotation.point,
+                          "A point of the axis of Rotation: coordinates [m], separated by commas");
+        prm.add_parameter("Axis direction",
+                          condition.rotation.direction,
+                          "Direction of the axis of Rotation in 3-D, of any length: x, y, z; the angle turns "
+                          "by the right hand's rule. In 2-D the axis is z");
         prm.leave_subsection();
       }
     prm.leave_subsection();

@@ -72,15 +72,16 @@ namespace perideal
           .allowed("0; empty: none")
           .hint("move a boundary by u_x, u_y and u_z");
       if (any_formula(text.displacement) || any_formula(text.velocity) || any_formula(text.traction) ||
-          !text.pressure.empty())
+          !text.pressure.empty() || text.rotation.is_given())
         throw InputError("a boundary that is held along its normal takes no other condition")
           .parameter(section + "u_n")
           .hint("remove u_n, or the others; give a plane along the axes u_x, u_y or u_z = 0 instead of u_n");
     }
 
     template <int dim>
-    BoundaryCondition<dim> make_condition(const BoundaryConditionText &text, const Tables &tables)
+    BoundaryCondition<dim> make_condition(BoundaryConditionText text, const LoadParameters &parameters)
     {
+      const Tables          &tables  = parameters.tables.tables;
       const std::string      section = "Boundary conditions/" + text.name + "/";
       BoundaryCondition<dim> result;
       result.name       = text.name;
@@ -89,6 +90,15 @@ namespace perideal
         throw InputError("the condition names no boundary")
           .parameter(section + "Boundary")
           .allowed("Gmsh physical names or ids, separated by commas");
+      if (text.rotation.is_given())
+        {
+          if (any_formula(text.displacement) || any_formula(text.velocity) || any_formula(text.traction))
+            throw InputError("a rotation prescribes all components, one of which is given besides")
+              .parameter(section + "Rotation")
+              .hint("remove Rotation, or u_x, v_x, t_x and the like of this condition");
+          text.displacement =
+            displacement_of_rotation<dim>(text.rotation, parameters.has_small_rotations, section, tables);
+        }
       if (result.slides = !text.normal_displacement.empty(); result.slides)
         check_sliding(text, section);
       result.displacement = make_components<dim>(text.displacement, section + "u_", tables);
@@ -99,7 +109,7 @@ namespace perideal
       if (!result.prescribes_displacement() && !result.prescribes_traction())
         throw InputError("the condition prescribes nothing")
           .parameter("Boundary conditions/" + text.name)
-          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, u_n, Pressure");
+          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, u_n, Pressure, Rotation");
       for (int d = 0; d < dim; ++d)
         {
           if (result.displacement[d].is_present() && result.velocity[d].is_present())
@@ -236,7 +246,7 @@ namespace perideal
     , reference_temperature(parameters.reference_temperature)
   {
     for (const BoundaryConditionText &text : parameters.conditions)
-      conditions.push_back(make_condition<dim>(text, parameters.tables.tables));
+      conditions.push_back(make_condition<dim>(text, parameters));
     for (const PointLoadText &text : parameters.point_loads)
       point_loads.push_back(make_point_load<dim>(text, parameters.tables.tables));
   }

@@ -3,6 +3,7 @@
 #define perideal_parameters_load_parameters_h
 
 #include <perideal/parameters/choice.h>
+#include <perideal/parameters/face_rotation.h>
 #include <perideal/parameters/space_time_function.h>
 #include <perideal/parameters/treatment_list.h>
 
@@ -97,6 +98,8 @@ namespace perideal
     std::array<std::string, 3> traction;
     /// Pressure [Pa], positive towards the body.
     std::string pressure;
+    /// Prescribes all components instead of the displacement.
+    RotationText rotation;
     /// Prescribed displacement along the normal [m]: 0, or empty.
     std::string normal_displacement;
   };
@@ -133,6 +136,8 @@ namespace perideal
     std::string temperature;
     double      reference_temperature = 0.;
 
+    /// Whether rotations are those of linear statics; what the solver says.
+    bool has_small_rotations = false;
     /// Section "Tables", for formulas of all sections.
     TableParameters tables;
 
