@@ -224,6 +224,7 @@ set(perideal_sources
   operators/linear/consistent_operator_matrix.cc
   operators/linear/correspondence_tangent.cc
   operators/linear/deformed_cells.cc
+  operators/linear/face_springs.cc
   operators/linear/family_operator.cc
   operators/linear/family_operator_loops.cc
   operators/linear/family_operator_matrix.cc

@@ -128,12 +128,49 @@ namespace perideal
           "set Solver/Linear solver = automatic, or hold a plane along the axes by u_x, u_y or u_z = 0"),
       };
     }
+    std::vector<std::string> springs_where(const Scene &scene, const bool is_broken)
+    {
+      std::vector<std::string> result;
+      for (const auto &condition : scene.loads.conditions)
+        if (is_broken && condition.spring.stiffness > 0)
+          result.push_back("Boundary conditions/" + condition.name + "/Spring stiffness");
+      return result;
+    }
+
+    std::vector<Rule> spring_rules()
+    {
+      const char *const springs = "Boundary conditions/NAME/Spring stiffness";
+      return {
+        refuse_each(
+          springs,
+          "Solver/Name other than static",
+          [](const Scene &s) { return springs_where(s, !s.solver.is_linear_static()); },
+          "springs at a boundary belong to linear statics",
+          "0 for Solver/Name = ..."),
+        refuse_each(
+          springs,
+          "Boundary conditions/Traction treatment other than face value",
+          [](const Scene &s) {
+            return springs_where(s, s.loads.traction_treatment != TractionTreatment::face_value);
+          },
+          "springs pull at the displacement of faces, which only the consistent form has",
+          "0 for this treatment",
+          "set Material/Form = consistent"),
+        refuse_each(
+          springs,
+          "Solver/Linear solver = direct | trilinos cg | trilinos gmres",
+          [](const Scene &s) { return springs_where(s, s.solver.assembles()); },
+          "the matrix of springs at a boundary is not assembled",
+          "0 for this linear solver",
+          "set Solver/Linear solver = automatic"),
+      };
+    }
   } // namespace
 
   std::vector<Rule> load_rules()
   {
     std::vector<Rule> all = thermal_rules();
-    for (const auto part : {sliding_rules})
+    for (const auto part : {sliding_rules, spring_rules})
       for (Rule &rule : part())
         all.push_back(std::move(rule));
     return all;

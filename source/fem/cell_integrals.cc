@@ -169,5 +169,25 @@ namespace perideal
       }
   }
 
+  template <int dim>
+  void CellIntegrals<dim>::add_springs(
+    const Cell                                                                           &cell,
+    const unsigned int                                                                    face,
+    const std::function<dealii::SymmetricTensor<2, dim>(const dealii::Tensor<1, dim> &)> &stiffness,
+    dealii::FullMatrix<double>                                                           &matrix)
+  {
+    face_values.reinit(typename dealii::Triangulation<dim>::cell_iterator(cell), face);
+    for (const unsigned int q : face_values.quadrature_point_indices())
+      {
+        const auto spring = thickness * face_values.JxW(q) * stiffness(face_values.normal_vector(q));
+        for (unsigned int a = 0; a < unknown_of_shape.size(); ++a)
+          for (unsigned int b = 0; b < unknown_of_shape.size(); ++b)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                matrix(unknown_of_shape[a][i], unknown_of_shape[b][j]) +=
+                  face_values.shape_value(a, q) * face_values.shape_value(b, q) * spring[i][j];
+      }
+  }
+
   PERIDEAL_INSTANTIATE_CLASS(CellIntegrals)
 } // namespace perideal

@@ -59,15 +59,23 @@ namespace perideal
       return result;
     }
 
-    /// Holds the vertices of these boundaries along the normals of their faces.
+    /// Holds the vertices of these boundaries along the normals of their faces, and those on springs.
     template <int dim>
     void hold_sliding(const dealii::DoFHandler<dim> &unknowns,
                       const Mesh<dim>               &mesh,
                       const Loads<dim>              &loads,
                       RigidBodyMotions<dim>         &motions)
     {
-      const auto sliding = sliding_boundaries(mesh, loads);
-      if (sliding.empty())
+      const auto                                 sliding = sliding_boundaries(mesh, loads);
+      std::map<dealii::types::boundary_id, bool> along_normal;
+      for (const auto id : sliding)
+        along_normal[id] = true;
+      for (const BoundaryCondition<dim> &condition : loads.conditions)
+        if (condition.spring.stiffness > 0)
+          for (const std::string &boundary : condition.boundaries)
+            along_normal[mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary")] =
+              condition.spring.direction == SpringDirection::normal;
+      if (along_normal.empty())
         return;
       const dealii::FE_Nothing<dim> no_element;
       dealii::FEFaceValues<dim>     values(
@@ -75,11 +83,16 @@ namespace perideal
       for (const auto &cell : unknowns.get_triangulation().active_cell_iterators())
         if (cell->is_locally_owned() && cell->at_boundary())
           for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() && sliding.count(cell->face(f)->boundary_id()) > 0)
+            if (const auto held = along_normal.find(cell->face(f)->boundary_id());
+                cell->face(f)->at_boundary() && held != along_normal.end())
               {
                 values.reinit(cell, f);
                 for (const unsigned int v : cell->face(f)->vertex_indices())
-                  motions.hold_along(cell->face(f)->vertex(v), values.normal_vector(0));
+                  if (held->second)
+                    motions.hold_along(cell->face(f)->vertex(v), values.normal_vector(0));
+                  else
+                    for (unsigned int d = 0; d < dim; ++d)
+                      motions.hold(cell->face(f)->vertex(v), d);
               }
     }
   } // namespace

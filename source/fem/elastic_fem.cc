@@ -75,6 +75,7 @@ namespace perideal
       material != assembled.solids.end(),
       dealii::ExcMessage("no elastic constants for material id " + std::to_string(cell->material_id())));
     integrals.stiffness(cell, material->second, matrix);
+    external.add_springs(cell, integrals, matrix);
 
     forces = 0.;
     external.add(cell, integrals, forces);

@@ -13,10 +13,14 @@ namespace perideal
     , has_body_force(loads.has_body_force())
   {
     for (const BoundaryCondition<dim> &condition : loads.conditions)
-      if (condition.prescribes_traction())
-        for (const std::string &boundary : condition.boundaries)
-          tractions.emplace(mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary"),
-                            &condition);
+      for (const std::string &boundary : condition.boundaries)
+        {
+          const auto id = mesh.boundary_id(boundary, "Boundary conditions/" + condition.name + "/Boundary");
+          if (condition.prescribes_traction())
+            tractions.emplace(id, &condition);
+          if (condition.spring.stiffness > 0)
+            springs.emplace(id, condition.spring);
+        }
   }
 
   template <int dim>
@@ -71,6 +75,26 @@ namespace perideal
       for (unsigned int k = 0; k < forces.size(); ++k)
         forces[k] += element.shape_value(k, entry->second.unit_point) *
                      entry->second.force[element.system_to_component_index(k).first];
+  }
+
+  template <int dim>
+  void ExternalForces<dim>::add_springs(const Cell                 &cell,
+                                        CellIntegrals<dim>         &integrals,
+                                        dealii::FullMatrix<double> &matrix) const
+  {
+    if (springs.empty() || !cell->at_boundary())
+      return;
+    for (const unsigned int face : cell->face_indices())
+      if (cell->face(face)->at_boundary())
+        {
+          const auto holding = springs.equal_range(cell->face(face)->boundary_id());
+          for (auto entry = holding.first; entry != holding.second; ++entry)
+            integrals.add_springs(
+              cell,
+              face,
+              [&](const dealii::Tensor<1, dim> &normal) { return entry->second.in(normal); },
+              matrix);
+        }
   }
 
   PERIDEAL_INSTANTIATE_CLASS(ExternalForces)

@@ -78,6 +78,17 @@ namespace perideal
                           condition.pressure,
                           "Pressure towards the body [Pa], a formula in x, y, z, t; empty: none");
         prm.add_parameter(
+          "Spring stiffness",
+          condition.spring.stiffness,
+          "Stiffness >= 0 of an elastic foundation on which the boundary stands, in a unit of "
+          "area [N/m^3]; 0: none",
+          dealii::Patterns::Double(0));
+        prm.add_parameter(
+          "Spring direction",
+          condition.spring.direction,
+          "Which motion of the boundary these springs resist: all: in all directions; normal: "
+          "along its normal");
+        prm.add_parameter(
           "Rotation",
           condition.rotation.angle,
           "Angle by which the boundary is turned about an axis [rad], a formula in x, y, z, t; "

@@ -72,7 +72,7 @@ namespace perideal
           .allowed("0; empty: none")
           .hint("move a boundary by u_x, u_y and u_z");
       if (any_formula(text.displacement) || any_formula(text.velocity) || any_formula(text.traction) ||
-          !text.pressure.empty() || text.rotation.is_given())
+          !text.pressure.empty() || text.rotation.is_given() || text.spring.stiffness > 0)
         throw InputError("a boundary that is held along its normal takes no other condition")
           .parameter(section + "u_n")
           .hint("remove u_n, or the others; give a plane along the axes u_x, u_y or u_z = 0 instead of u_n");
@@ -106,10 +106,12 @@ namespace perideal
       result.traction     = make_components<dim>(text.traction, section + "t_", tables);
       result.pressure     = SpaceTimeFunction<dim>(text.pressure, section + "Pressure", tables);
 
-      if (!result.prescribes_displacement() && !result.prescribes_traction())
+      result.spring = text.spring;
+      if (!result.prescribes_displacement() && !result.prescribes_traction() && !(text.spring.stiffness > 0))
         throw InputError("the condition prescribes nothing")
           .parameter("Boundary conditions/" + text.name)
-          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, u_n, Pressure, Rotation");
+          .allowed("at least one of u_x, u_y, u_z, v_x, v_y, v_z, t_x, t_y, t_z, u_n, Pressure, Rotation, "
+                   "Spring stiffness");
       for (int d = 0; d < dim; ++d)
         {
           if (result.displacement[d].is_present() && result.velocity[d].is_present())

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/boundary/face_tractions.h>
+#include <perideal/operators/linear/face_springs.h>
 #include <perideal/treatments/treatments.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 
 /*
  * Treatment "face value", of the consistent form, whose strains come of values at the faces of cells.
@@ -32,6 +37,20 @@ namespace perideal
         return {this->values->sum_by_condition(forces, system.communicator()),
                 this->values->work(forces, system.communicator())};
       }
+
+      SupportBalance<dim> balance(const LinearEquilibrium<dim> &equilibrium) const override
+      {
+        SupportBalance<dim> result = Supports<dim>::balance(equilibrium);
+        if (const auto *springs = dynamic_cast<const FaceSprings<dim> *>(&equilibrium.system.bond_operator());
+            springs != nullptr)
+          {
+            const auto forces = springs->spring_forces(equilibrium.displacement);
+            for (std::size_t k = 0; k < forces.size(); ++k)
+              result.reactions[k] +=
+                dealii::Utilities::MPI::sum(forces[k], equilibrium.system.communicator());
+          }
+        return result;
+      }
     };
 
     template <int dim>
@@ -39,6 +58,16 @@ namespace perideal
     {
     public:
       using Tractions<dim>::Tractions;
+
+      std::shared_ptr<BondOperator<dim>> around(const std::shared_ptr<BondOperator<dim>> &cells) override
+      {
+        const auto &conditions = this->body.loads.conditions;
+        if (std::none_of(conditions.begin(), conditions.end(), [](const BoundaryCondition<dim> &condition) {
+              return condition.spring.stiffness > 0;
+            }))
+          return cells;
+        return std::make_shared<FaceSprings<dim>>(cells, this->bonds.moments, this->body.loads);
+      }
 
       void add_tractions(const Loads<dim> &given, const double time, NodalVector &force) const override
       {

@@ -58,10 +58,14 @@ namespace perideal
     for (const auto &entry : at_faces.entries())
       motions.hold(entry.point, entry.component);
     for (const BoundaryCondition<dim> &condition : body.loads.conditions)
-      if (condition.slides)
+      if (const bool has_springs = condition.spring.stiffness > 0; condition.slides || has_springs)
         visit_faces(condition, body.faces, [&](const BoundaryFace<dim> &face) {
           for (const dealii::Point<dim> &vertex : face.vertices)
-            motions.hold_along(vertex, face.normal);
+            if (has_springs && condition.spring.direction == SpringDirection::all)
+              for (int d = 0; d < dim; ++d)
+                motions.hold(vertex, d);
+            else
+              motions.hold_along(vertex, face.normal);
         });
   }
 

@@ -56,6 +56,14 @@ namespace perideal
                       const Traction         &traction,
                       dealii::Vector<double> &forces);
 
+    /// Adds to the stiffness matrix of a cell that of springs at a face [N/m].
+    /// @param stiffness in a unit of area, by outward unit normal [N/m^3]
+    void add_springs(
+      const Cell                                                                           &cell,
+      const unsigned int                                                                    face,
+      const std::function<dealii::SymmetricTensor<2, dim>(const dealii::Tensor<1, dim> &)> &stiffness,
+      dealii::FullMatrix<double>                                                           &matrix);
+
   private:
     /// Sums up, of each pair of shapes a <= b, int grad N_a (x) grad N_b dV [m].
     void integrate_products(const Cell &cell);

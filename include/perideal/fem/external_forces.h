@@ -32,12 +32,18 @@ namespace perideal
     /// Adds the nodal forces [N] on a locally owned cell.
     void add(const Cell &cell, CellIntegrals<dim> &integrals, dealii::Vector<double> &forces) const;
 
+    /// Adds the springs at the faces of such a cell to its stiffness matrix [N/m].
+    void
+    add_springs(const Cell &cell, CellIntegrals<dim> &integrals, dealii::FullMatrix<double> &matrix) const;
+
   private:
     const Loads<dim> &loads;
     double            time = 0;
     bool              has_body_force;
     /// Conditions with a traction or pressure, by the boundary they act on.
     std::multimap<dealii::types::boundary_id, const BoundaryCondition<dim> *> tractions;
+    /// Springs by the boundary that they hold.
+    std::multimap<dealii::types::boundary_id, FaceSpring> springs;
 
     /// The part of a point load [N] that acts at a point of a cell.
     struct PointForce

@@ -8,6 +8,8 @@
 #include <perideal/parameters/treatment_list.h>
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 #include <deal.II/base/types.h>
 
 #include <algorithm>
@@ -83,6 +85,36 @@ namespace perideal
     static constexpr const char *list[] = {"error", "remove"};
   };
 
+  /// Along which directions the springs at a boundary pull.
+  enum class SpringDirection
+  {
+    all,
+    normal
+  };
+
+  template <>
+  struct ChoiceNames<SpringDirection>
+  {
+    static constexpr const char *list[] = {"all", "normal"};
+  };
+
+  /// An elastic foundation of a boundary.
+  struct FaceSpring
+  {
+    /// In a unit of area [N/m^3]; 0: none.
+    double          stiffness = 0.;
+    SpringDirection direction = SpringDirection::all;
+
+    /// The stiffness at a face with that unit normal [N/m^3].
+    template <int dim>
+    dealii::SymmetricTensor<2, dim> in(const dealii::Tensor<1, dim> &normal) const
+    {
+      return stiffness * (direction == SpringDirection::all ?
+                            dealii::unit_symmetric_tensor<dim>() :
+                            dealii::symmetrize(dealii::outer_product(normal, normal)));
+    }
+  };
+
   /// Expressions of one subsection of "Boundary conditions"; an empty one is free.
   struct BoundaryConditionText
   {
@@ -102,6 +134,7 @@ namespace perideal
     RotationText rotation;
     /// Prescribed displacement along the normal [m]: 0, or empty.
     std::string normal_displacement;
+    FaceSpring  spring;
   };
 
   /// Expressions of one subsection of "Point loads"; an empty one is no force.
@@ -185,6 +218,8 @@ namespace perideal
     /// Whether the boundary slides in its tangential plane: nothing moves along the normal, nothing pulls
     /// along it.
     bool slides = false;
+    /// On which the boundary stands.
+    FaceSpring spring;
 
     /// Whether it names a boundary.
     bool acts_on(const dealii::types::boundary_id boundary) const
