@@ -130,11 +130,9 @@ namespace perideal
         throw mesh_error(mesh, first)
           .hint(mesh.element_numbers.empty() ?
                   "choose other sizes of the generator, or a smaller Mesh/Distortion" :
-                  "subdivision (Mesh.SubdivisionAlgorithm) folds cells at curved boundaries: choose smaller "
-                  "sizes "
-                  "there (Mesh.CharacteristicLengthFromCurvature = 1; Mesh.CharacteristicLengthMax), let an "
-                  "optimiser mend them (Mesh.Optimize = 1; Mesh.OptimizeNetgen = 1; or "
-                  "Mesh.HighOrderOptimize), or "
+                  "subdivision (Mesh.SubdivisionAlgorithm) folds cells where it moves their new corners to "
+                  "curved boundaries: leave these on straight edges (Mesh.SecondOrderLinear = 1), choose "
+                  "smaller sizes there (Mesh.MeshSizeFromCurvature = 24 cells a turn; Mesh.MeshSizeMax), or "
                   "extrude or use transfinite surfaces and volumes instead. Gmsh shows the element (Tools, "
                   "Visibility)");
     }

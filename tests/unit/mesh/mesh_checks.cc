@@ -158,5 +158,5 @@ TEST(MeshChecks, NameRemediesForFoldedCells)
   expect_refused<2>(
     {"1 0 0 0", "2 1 0 0", "3 .2 .2 0", "4 0 1 0"},
     {"5 3 2 9 1 1 2 3 4"},
-    {"SubdivisionAlgorithm", "Mesh.CharacteristicLengthMax", "Mesh.OptimizeNetgen", "transfinite"});
+    {"SubdivisionAlgorithm", "Mesh.SecondOrderLinear = 1", "Mesh.MeshSizeMax", "transfinite"});
 }
