@@ -10,6 +10,7 @@ Ends with exit status 77 where Debian's python3-vtk9 or python3-matplotlib are m
 import argparse
 import json
 import os
+import shutil
 import subprocess
 import sys
 import zlib
@@ -107,6 +108,21 @@ class Page(HTMLParser):
         self.words.append(data)
 
 
+def check_in_browser(path, n_pictures):
+    """Opens a report in a browser without a window, where there is one: every picture is drawn."""
+    browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if browser is None:
+        return
+    count = "document.title = 'drawn ' + [...document.images].filter(i => i.naturalWidth > 100).length"
+    counting = path.with_name("counting.html")
+    counting.write_text(path.read_text(encoding="utf-8").replace(
+        "</body>", f"<script>addEventListener('load', () => {{ {count}; }});</script></body>"), encoding="utf-8")
+    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+               f"--user-data-dir={path.parent / 'browser'}", "--dump-dom", counting.resolve().as_uri()]
+    status, out, err = execute(command, path.parent, 120)
+    expect(status == 0 and f"<title>drawn {n_pictures}</title>" in out, f"the browser does not draw {n_pictures} pictures:\n{err}")
+
+
 def check_report(directory, n_pictures, words):
     text = (directory / "report.html").read_text(encoding="utf-8")
     page = Page(text)
@@ -118,6 +134,7 @@ def check_report(directory, n_pictures, words):
     content = " ".join(page.words)
     for word in words:
         expect(word in content, f"the report does not say {word!r}")
+    check_in_browser(directory / "report.html", len(page.references))
 
 
 class Bench:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/weights/node_values.h>
 #include <perideal/problem/finite_elements.h>
 #include <perideal/problem/free_motions.h>
 #include <perideal/problem/problem.h>
@@ -142,12 +143,7 @@ namespace perideal
   void Problem<dim>::store_displacement()
   {
     if (const auto &moments = discretisation.gradients.moments)
-      {
-        std::vector<typename GradientMoments<dim>::Place> places;
-        for (LocalIndex i = 0; i < body.nodes->size(); ++i)
-          places.push_back({i, body.nodes->position[i]});
-        state.displacement = moments->values_at(places, state.unknowns);
-      }
+      state.displacement = values_at_nodes(*moments, state.unknowns);
     else
       {
         state.displacement.resize(body.nodes->size());

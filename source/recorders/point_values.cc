@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/weights/node_values.h>
 #include <perideal/recorders/point_values.h>
 
 #include <deal.II/base/mpi.h>
@@ -50,7 +51,7 @@ namespace perideal
       }
     // Polynomials take means over cells; values are those at centroids, rigid-body motions removed.
     const char *const axes[]   = {"x", "y", "z"};
-    const auto        at_nodes = moments->point_values(problem.state.unknowns);
+    const auto        at_nodes = values_at_nodes(*moments, problem.state.unknowns);
     for (int d = 0; d < dim; ++d)
       add_column(of_polynomials, name + "_" + axes[d], [&](const LocalIndex i) {
         return values[i][d] + problem.state.unknowns.local_element(dim * i + d) - at_nodes[i][d];

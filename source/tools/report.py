@@ -73,7 +73,7 @@ def facts(summary):
                       f"neighbours, {number(neighbours.get('mean'))} on average"),
             ("model", f"{text(summary.get('model', ''))}, {text(summary.get('variant', ''))}"),
             ("solver", text(parameters.get("Solver", {}).get("Name", solver.get("name", "")))
-             + (f", {number(solver['steps'])} steps" if "steps" in solver else "")
+             + (f", {number(solver['steps'])} step{'s' * (solver['steps'] != 1)}" if "steps" in solver else "")
              + (", converged" if solver.get("converged") is True else ", not converged" if solver.get("converged") is False else "")),
             ("ranks", number(summary.get("ranks"))),
             ("memory", f"{summary['memory_bytes'] / 1e6:,.0f} MB" if "memory_bytes" in summary else "-")]
