@@ -326,6 +326,7 @@ set(perideal_sources
   drivers/dynamics_driver.cc
   drivers/equilibrium_driver.cc
   drivers/failed_step.cc
+  drivers/floating_nodes.cc
   drivers/heating.cc
   drivers/initial_motion.cc
   drivers/load_control.cc

@@ -8,11 +8,29 @@
 #include <perideal/problem/advice.h>
 #include <perideal/problem/description.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace perideal
 {
+  namespace
+  {
+    /// The energy [J] of strains of 1e-13 all over a body, of which displacements are by round-off.
+    /// Collective.
+    template <int dim>
+    double energy_of_round_off(const Body<dim> &body)
+    {
+      double volume = 0, modulus = 0;
+      for (const double of_node : body.nodes->volume)
+        volume += of_node;
+      for (const auto &[id, solid] : body.solids)
+        modulus = std::max(modulus, solid.stiffness().norm());
+      return dealii::Utilities::MPI::sum(volume, body.nodes->communicator) * modulus * 1e-26;
+    }
+  } // namespace
+
   template <int dim>
   Driver<dim>::Driver(Problem<dim> &problem, const RunKind &kind)
     : problem(problem)
@@ -113,6 +131,8 @@ namespace perideal
   template <int dim>
   double Driver<dim>::energy_error(const EnergyBudget &energy, const double scale)
   {
+    if (largest_energy == 0.)
+      largest_energy = energy_of_round_off(problem.body);
     largest_energy = std::max({largest_energy, std::abs(energy.external), scale});
     return largest_energy > 0 ? energy.imbalance() / largest_energy : 0.;
   }

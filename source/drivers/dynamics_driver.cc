@@ -36,6 +36,7 @@ namespace perideal
         , solver(problem.parameters.solver)
         , initial(problem.parameters.initial)
         , motion_check(problem)
+        , heating(problem)
       {
       }
 
@@ -187,9 +188,14 @@ namespace perideal
             {
               const Timings::Scope scope(problem.run.timings, "solve");
               if ((loads_change || problem.force->version() != version) && n > 0)
-                heat_and_load();
+                {
+                  heating.remember();
+                  apply_forces();
+                  heating.take_loads();
+                }
               version = problem.force->version();
               dynamics->evaluate(problem.state.external_force);
+              dynamics->add_work(heating.work());
             }
             observe(n);
             if (const auto share = static_cast<double>(n) / steps.number; progress.is_due() || n == first)
@@ -209,13 +215,6 @@ namespace perideal
               return false;
           }
         return true;
-      }
-
-      void heat_and_load()
-      {
-        Heating<dim> heating(problem);
-        apply_forces();
-        dynamics->add_work(heating.change());
       }
 
       void apply_forces() { problem.loading.external_force(dynamics->time(), problem.state.external_force); }
@@ -311,6 +310,7 @@ namespace perideal
       MotionSteps                            steps;
       std::unique_ptr<ExplicitDynamics<dim>> dynamics;
       MotionCheck<dim>                       motion_check;
+      Heating<dim>                           heating;
     };
   } // namespace
 

@@ -4,10 +4,10 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/failed_step.h>
+#include <perideal/drivers/floating_nodes.h>
 #include <perideal/drivers/heating.h>
 #include <perideal/drivers/load_control.h>
 #include <perideal/drivers/preconditioning.h>
-#include <perideal/fracture/floating_nodes.h>
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
 #include <perideal/solvers/dynamic_relaxation.h>
@@ -33,6 +33,7 @@ namespace perideal
       explicit EquilibriumDriver(Problem<dim> &problem)
         : Driver<dim>(problem, kind_of(problem.parameters.solver))
         , solver(problem.parameters.solver)
+        , heating(problem)
       {
       }
 
@@ -118,7 +119,7 @@ namespace perideal
           }
         typename NewtonSolver<dim>::FindFloating find_floating;
         if (controls.bonds_break || !problem.failure.precracks.empty())
-          find_floating = [this]() { return floating_nodes(); };
+          find_floating = [this]() { return floating_nodes(problem); };
         FaceValues<dim> *const face_values =
           loading.supports->hold_nodes() ? nullptr : loading.supports->face_values().get();
         const auto make = [&](auto create) {
@@ -147,20 +148,6 @@ namespace perideal
         control    = std::make_unique<LoadControl<dim>>(problem, *controlled);
       }
 
-      std::vector<bool> floating_nodes() const
-      {
-        const BondList   &bonds = problem.force->body_bonds();
-        std::vector<bool> is_lost(bonds.n_slots(), false);
-        for (const auto &bond : problem.force->lost_bonds())
-          if (const BondIndex slot = bonds.find(bond.near, bond.far); slot != BondList::no_slot)
-            is_lost[slot] = true;
-        return find_floating_nodes(
-          *problem.discretisation.families,
-          bonds,
-          [&](const BondIndex slot) { return is_lost[slot]; },
-          problem.loading.supports->held().mask());
-      }
-
       bool advance() override
       {
         recorders->summary()["solver"] = solver_report;
@@ -172,6 +159,7 @@ namespace perideal
           problem.lasting.add_value("work of heating", work_of_heating);
         if (control)
           control->register_state(problem.lasting);
+        heating.begin_cold();
         if (resumed)
           resume();
         const unsigned int interval = problem.parameters.checkpoints.steps;
@@ -238,6 +226,7 @@ namespace perideal
                 ++step.halvings;
                 part *= 0.5;
                 path->restore();
+                heating.go_back(path->displacement);
                 problem.run.screen << "load step " << step.number << " from t = " << short_number(time)
                                    << " is halved" << std::endl;
               }
@@ -287,9 +276,9 @@ namespace perideal
                                  std::to_string(solver.n_load_steps()) + ", " +
                                  std::to_string(path->n_broken()) + " broken bonds";
         const double end = time_of(solver.n_load_steps());
-        Heating<dim> heating(problem);
+        heating.remember();
         apply_loads(time);
-        heating.change();
+        heating.take_loads();
         EquilibriumStep result =
           path->step(problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
             show(what, (from + (time - from) * share_of_iteration(r, solver.tolerance)) / end, iteration, r);
@@ -345,7 +334,8 @@ namespace perideal
       nlohmann::ordered_json            solver_report;
       /// Load steps.
       unsigned int done = 0;
-      /// That temperature has done so far [J].
+      Heating<dim> heating;
+      /// [J]
       double work_of_heating = 0;
     };
   } // namespace

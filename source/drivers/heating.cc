@@ -7,21 +7,26 @@
 namespace perideal
 {
   template <int dim>
-  Heating<dim>::Heating(const Problem<dim> &problem)
-    : problem(problem)
+  void Heating<dim>::begin_cold()
+  {
+    if (problem.loading.expansion)
+      *problem.loading.expansion = CellExpansion<dim>(problem.body.nodes->size());
+  }
+
+  template <int dim>
+  void Heating<dim>::remember()
   {
     if (!problem.loading.expansion)
       return;
-    earlier       = std::make_unique<const CellExpansion<dim>>(*problem.loading.expansion);
+    earlier       = std::make_unique<CellExpansion<dim>>(*problem.loading.expansion);
     energy_before = problem.force->strain_energy();
   }
 
   template <int dim>
-  double Heating<dim>::change()
+  void Heating<dim>::take_loads()
   {
     if (earlier)
       first_change = problem.force->strain_energy() - energy_before;
-    return first_change;
   }
 
   template <int dim>
@@ -29,12 +34,24 @@ namespace perideal
   {
     if (!earlier)
       return 0.;
-    const double       with_later = problem.force->strain_energy();
-    CellExpansion<dim> later      = *earlier;
-    std::swap(later, *problem.loading.expansion);
+    const double with_later = problem.force->strain_energy();
+    std::swap(*earlier, *problem.loading.expansion);
     const double with_earlier = problem.force->strain_energy();
-    std::swap(later, *problem.loading.expansion);
+    std::swap(*earlier, *problem.loading.expansion);
+    earlier.reset();
     return 0.5 * (first_change + with_later - with_earlier);
+  }
+
+  template <int dim>
+  void Heating<dim>::go_back(const NodalVector &displacement)
+  {
+    if (!earlier)
+      return;
+    *problem.loading.expansion = *earlier;
+    earlier.reset();
+    NodalVector forces;
+    forces.reinit(displacement, true);
+    problem.force->compute(forces, displacement);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Heating)

@@ -139,13 +139,15 @@ namespace perideal
     prm.add_parameter(
       "Temperature",
       temperature,
-      "Temperature of the body [K or degrees], a formula in x, y, z, t. A free body expands in "
+      "Temperature of the body [K], or in degrees Celsius, a formula in x, y, z, t. A free body expands in "
       "all directions by Material/Thermal expansion times what it is above Reference "
       "temperature; empty: no thermal strain");
-    prm.add_parameter("Reference temperature",
-                      reference_temperature,
-                      "Temperature at which there is no thermal strain [K or degrees]",
-                      dealii::Patterns::Double());
+    prm.add_parameter(
+      "Reference temperature",
+      reference_temperature,
+      "Temperature at which there is no thermal strain [K], or in degrees Celsius like the other; 0 "
+      "where Temperature is what the body is heated by",
+      dealii::Patterns::Double());
     prm.leave_subsection();
   }
 } // namespace perideal

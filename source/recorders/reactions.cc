@@ -26,7 +26,7 @@ namespace perideal
         const char *axes[]    = {"x", "y", "z"};
         Json        reactions = Json::object();
         for (std::size_t k = 0; k < loads.conditions.size(); ++k)
-          if (loads.conditions[k].prescribes_displacement())
+          if (loads.conditions[k].prescribes_displacement() || loads.conditions[k].spring.stiffness > 0)
             for (int d = 0; d < dim; ++d)
               {
                 const std::string &name  = loads.conditions[k].name;

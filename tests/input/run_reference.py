@@ -22,7 +22,7 @@ FORMATS = ["text", "prm", "markdown", "json"]
 # Words of programs, and bounds that bound nothing.
 FOREIGN = ["MAX_DOUBLE", "MIN_DOUBLE", "4294967295", "2147483647", "-2147483648", "inclusive", "[Double", "[Integer", "[List",
            "[Map", "[Anything", "[Selection", "[Bool", "1.79769", "e+308"]
-UNITS = {"-", "m", "s", "1/s", "m/s", "m/s^2", "Pa", "J", "J/m^2", "kg/m^3", "N", "N/m^3", "N/m^11", "degrees", "Pa m^0.5"}
+UNITS = {"-", "m", "s", "1/s", "m/s", "m/s^2", "Pa", "J", "J/m^2", "kg/m^3", "N", "N/m^3", "N/m^11", "degrees", "rad", "K", "1/K", "Pa m^0.5"}
 NUMBERS = ("number", "whole number")
 
 

@@ -4,34 +4,47 @@
 
 #include <perideal/problem/problem.h>
 
-#include <array>
 #include <memory>
 
 namespace perideal
 {
   /**
-   * Finds the energy that a change of temperature puts into the body: U with the expansions after it less U
+   * Finds the energy that changes of temperature put into the body: U with the expansions after a step less U
    * with those before, at the displacement before the step and at that after it, of which the work is the
    * mean. Nothing where the scene gives no temperature.
+   *
+   * In each step: remember(), the loads are set, take_loads(), the body moves and its forces are computed,
+   * work(), or go_back().
    */
   template <int dim>
   class Heating
   {
   public:
-    /// To be made before the loads are set to the time of the step. Collective.
-    explicit Heating(const Problem<dim> &problem);
+    explicit Heating(const Problem<dim> &problem)
+      : problem(problem)
+    {
+    }
 
-    /// Returns the change of U at the displacement of the last forces [J], once the loads are set.
-    /// Collective.
-    double change();
+    /// Takes out all expansion: the body at rest, before the first load step.
+    void begin_cold();
 
-    /// Returns the work [J], after the step. Collective.
+    /// Keeps the expansions of now. Collective.
+    void remember();
+
+    /// Compares energies at the displacement of the last forces. Collective.
+    void take_loads();
+
+    /// Compares them at that of the present forces. Returns the work since remember() [J]. Collective.
     double work();
 
+    /// Takes back the expansions of remember(), for a step that failed. Collective.
+    /// @param displacement before it
+    void go_back(const NodalVector &displacement);
+
   private:
-    const Problem<dim>                       &problem;
-    std::unique_ptr<const CellExpansion<dim>> earlier;
-    double                                    energy_before = 0, first_change = 0;
+    const Problem<dim>                 &problem;
+    std::unique_ptr<CellExpansion<dim>> earlier;
+    double                              energy_before = 0, first_change = 0;
   };
 } // namespace perideal
 
