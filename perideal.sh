@@ -4,7 +4,7 @@ set -euo pipefail
 
 # Debian packages: to build and run; to test.
 packages=(g++ cmake ninja-build libdeal.ii-dev libeigen3-dev nlohmann-json3-dev openmpi-bin gmsh)
-test_packages=(libgtest-dev python3 python3-vtk9 python3-matplotlib python3-numpy git clang-format clang-tidy gmsh-doc)
+test_packages=(libgtest-dev python3 python3-vtk9 python3-matplotlib python3-numpy git clang-format clang-tidy gmsh-doc doxygen)
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build=$root/build

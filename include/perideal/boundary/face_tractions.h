@@ -36,14 +36,14 @@ namespace perideal
   };
 
   /// Two Gauss points in each direction on the (bi)linear face through its corners.
-  /// @param Face BoundaryFace or SurfaceFace
+  /// @tparam Face BoundaryFace or SurfaceFace
   template <int dim, typename Face>
   std::vector<FacePoint<dim>> quadrature_points(const Face &face);
 
   /**
    * The traction of a condition integrated over a face, by two Gauss points in each direction: exact for
    * force and moment of linear tractions on flat faces.
-   * @param Face BoundaryFace or SurfaceFace
+   * @tparam Face BoundaryFace or SurfaceFace
    * @param about point that the moment is taken about
    */
   template <int dim, typename Face>

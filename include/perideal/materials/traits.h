@@ -140,8 +140,10 @@ namespace perideal
 
   /// One of the list of models.
   using ModelChoice = Listed<ModelTraits>;
+  /// @cond
   template <>
   const Registry<ModelTraits> &ModelChoice::list();
+  /// @endcond
 } // namespace perideal
 
 #endif

@@ -23,7 +23,7 @@ namespace perideal
     virtual MeshPoints<dim> *points() { return nullptr; }
 
     /// Takes a vector field that has one value at each of these points: those at the corners of the owned
-    /// cells, by node. @param name letters, digits and underscores.
+    /// cells, by node. The name is of letters, digits and underscores.
     virtual void add_at_points(const std::string &, const std::vector<CornerValues<dim>> &) {}
 
     /// Takes a vector field, one value for each of this rank's nodes.

@@ -37,7 +37,6 @@ namespace perideal
    * Draws the last fields and the curves of the run in a directory, and writes its report where that is asked
    * for, by the script plot.py. One rank calls it. Throws nothing: a run does not fail for want of a picture.
    *
-   * @param fields to draw; empty: all that the run has written
    * @return the names of the files, or why there are none
    */
   ToolResult draw_pictures(const std::string &directory, const PictureParameters &parameters);

@@ -55,6 +55,7 @@ namespace perideal
   }
 } // namespace perideal
 
+/// @cond
 /// Reads and writes enumerations with names.
 template <typename Enum>
 struct dealii::Patterns::Tools::Convert<Enum, std::void_t<decltype(perideal::ChoiceNames<Enum>::list)>>
@@ -77,5 +78,6 @@ struct dealii::Patterns::Tools::Convert<Enum, std::void_t<decltype(perideal::Cho
     return perideal::choice_of<Enum>(text);
   }
 };
+/// @endcond
 
 #endif

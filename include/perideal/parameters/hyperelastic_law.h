@@ -71,8 +71,10 @@ namespace perideal
   };
 
   using LawChoice = Listed<LawTraits>;
+  /// @cond
   template <>
   const Registry<LawTraits> &LawChoice::list();
+  /// @endcond
 
   /// @throws InputError on a solid that the law does not take.
   template <int dim>

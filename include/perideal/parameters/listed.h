@@ -71,6 +71,7 @@ namespace perideal
   }
 } // namespace perideal
 
+/// @cond
 /// Reads and writes choices from a list.
 template <typename Traits>
 struct dealii::Patterns::Tools::Convert<perideal::Listed<Traits>>
@@ -90,5 +91,6 @@ struct dealii::Patterns::Tools::Convert<perideal::Listed<Traits>>
     return perideal::Listed<Traits>(text);
   }
 };
+/// @endcond
 
 #endif

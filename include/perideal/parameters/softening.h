@@ -23,8 +23,10 @@ namespace perideal
   };
 
   using Softening = Listed<SofteningTraits>;
+  /// @cond
   template <>
   const Registry<SofteningTraits> &Softening::list();
+  /// @endcond
 
   /**
    * Tells what is left of a bond by its largest stretch so far. Up to a first stretch s_0 it is elastic. From

@@ -30,8 +30,10 @@ namespace perideal
   };
 
   using FailureCriterion = Listed<StressCriterionTraits>;
+  /// @cond
   template <>
   const Registry<StressCriterionTraits> &FailureCriterion::list();
+  /// @endcond
 
   /// The criterion of a material with its strengths.
   class StressCriterion

@@ -49,12 +49,11 @@ namespace perideal
     /// Writes files of its own when the run ends, however it does. Collective.
     virtual void finish(nlohmann::ordered_json &) {}
 
-    /// Returns lines for the screen about the end of a run.
-    /// @param is_done whether it came to its end
+    /// Returns lines for the screen about the end of a run, by its summary and whether it came to its end.
     virtual std::string describe(const nlohmann::ordered_json &, const bool /*is_done*/) const { return {}; }
 
-    /// Registers what a run that goes on must know.
-    /// @param summary as far as it has come, which must outlive the state
+    /// Registers what a run that goes on must know; the summary, as far as it has come, must outlive the
+    /// state.
     virtual void register_state(LastingState &, nlohmann::ordered_json & /*summary*/) {}
   };
 } // namespace perideal
