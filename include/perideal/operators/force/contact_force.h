@@ -89,7 +89,7 @@ namespace perideal
     NodeCloud<dim> candidates();
     void           search();
     bool           are_family(const LocalIndex i, const GlobalIndex j) const;
-    /// @param node_i @param node_j the pair's ends among the families; beyond the owned ones: not owned
+    /// The nodes are the pair's ends among the families; beyond the owned ones: not owned.
     void repel(const Pair      &pair,
                const double    *y_i,
                const double    *y_j,
