@@ -5,7 +5,7 @@
     prm/manual/make.py --program build/perideal [--check] [PAGE...]
 
 The pages of parameters and combinations are what --parameters markdown and --rules print. --check also follows the links
-of all pages of the repository, and sees that the README is short and the gallery whole.
+of all pages of the repository, and sees that the README is short and the gallery whole, with a picture of every example.
 """
 
 import argparse
@@ -41,6 +41,8 @@ def deviations_of_repository():
     gallery = (ROOT / "prm" / "README.md").read_text(encoding="utf-8")
     found += [f"prm/README.md leaves out {scene.name}" for folder in ("examples", "verification")
               for scene in sorted((ROOT / "prm" / folder).glob("*.prm")) if f"({folder}/{scene.name})" not in gallery]
+    found += [f"prm/README.md shows no picture of {scene.name}" for scene in sorted((ROOT / "prm" / "examples").glob("*.prm"))
+              if f'"pictures/{scene.stem}.png"' not in gallery or not (ROOT / "prm" / "pictures" / f"{scene.stem}.png").exists()]
     manual = (HERE / "README.md").read_text(encoding="utf-8")
     found += [f"prm/manual/README.md leaves out {page.name}" for page in sorted(HERE.glob("*.md"))
               if page.name != "README.md" and f"({page.name})" not in manual]

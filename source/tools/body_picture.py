@@ -180,6 +180,7 @@ def body_picture(path, body, field, time=0.0, is_series=False, view=(1.0, -2.0, 
         extent = draw_plane(axes, body, positions, colours.of(values), damage)
         axes.set_xlabel("x [m]")
         axes.set_ylabel("y [m]")
+        axes.ticklabel_format(scilimits=(-2, 4))  # long numbers would push the label out
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
     else:
