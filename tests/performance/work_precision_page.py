@@ -36,7 +36,7 @@ CHOICES = [
      "tensor_manufactured_2d", ["moment corrected", "one point", "one point, exact parts"]),
     ("large strain", "`Model = correspondence`, `Form = consistent`", "hyperelastic_bar",
      ["consistent form", "FEM Q1", "correspondence, families"]),
-    ("motion", "`Form = energy`, one point (the defaults there); `Form = consistent` has a quarter of the error on the same "
+    ("motion", "`Form = energy`, one point (the defaults there); `Form = consistent` has a third of the error on the same "
      "mesh, and about the same time to the same error", "standing_wave",
      ["energy form", "consistent form", "ordinary", "springs, exact parts", "springs"]),
 ]
