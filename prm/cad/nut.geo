@@ -20,5 +20,5 @@ Mesh.MeshSizeFromCurvature = 12; // tetrahedra round the bore
 Mesh.Algorithm3D           = 1;
 Mesh.Optimize              = 1;
 Mesh.SubdivisionAlgorithm  = 2;  // each tetrahedron becomes four hexahedra
-Mesh.SecondOrderLinear     = 1;  // whose new corners stay on straight edges, so that none folds
+Mesh.SecondOrderLinear     = 1;  // whose new corners stay on straight edges, lest they fold
 Mesh.MshFileVersion        = 2.2;

@@ -76,8 +76,7 @@ def mesh_part(name, dimension, factor, folder, recombines=True):
     text = gzip.decompress(source.read_bytes()) if source.suffix == ".gz" else source.read_bytes()
     (folder / "part.geo").write_bytes(
         text + f"\nMesh.RecombineAll = {int(recombines)}; Mesh.RecombinationAlgorithm = 1; Mesh.SubdivisionAlgorithm = {dimension - 1};\n"
-               f"Mesh.ElementOrder = 1; Mesh.SaveAll = 1; Mesh.Algorithm = 6; Mesh.Binary = 0;\n"
-               f"Mesh.SecondOrderLinear = 1; // divided edges stay straight, so that no cell folds\n".encode())
+               f"Mesh.ElementOrder = 1; Mesh.SaveAll = 1; Mesh.Algorithm = 6; Mesh.Binary = 0;\n".encode())
     command = ["gmsh", "part.geo", f"-{dimension}", "-format", "msh22", "-clscale", str(factor), "-o", "whole.msh", "-v", "2"]
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, timeout=90, check=False, stdin=subprocess.DEVNULL)
