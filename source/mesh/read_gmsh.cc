@@ -88,7 +88,8 @@ namespace perideal
         .parameter("Mesh/File")
         .hint(is_inner(problem) ? "keep curves inside a three-dimensional body out of physical groups, and "
                                   "put the body into one: without any group, Gmsh saves the inner ones too" :
-                                  "");
+                                  "mesh the part again with other sizes (Mesh.MeshSizeMax) or another "
+                                  "algorithm (Mesh.Algorithm3D)");
 
     for (const auto &group : contents.cell_groups)
       mesh.material_names[group.first] = group.second;
