@@ -34,8 +34,6 @@ namespace perideal
   template <int d>
   dealii::Tensor<2, d> ExpandedLaw<dim>::elastic(const dealii::Tensor<2, d> &H) const
   {
-    if (expansion == 0.)
-      return H;
     const dealii::Tensor<2, d> change = expansion * dealii::unit_symmetric_tensor<d>();
     return is_linear() ? H - change : (H - change) / (1. + expansion);
   }
@@ -43,18 +41,22 @@ namespace perideal
   template <int dim>
   double ExpandedLaw<dim>::scale(const int power) const
   {
-    return expansion == 0. || is_linear() ? 1. : std::pow(1. + expansion, power);
+    return is_linear() ? 1. : std::pow(1. + expansion, power);
   }
 
   template <int dim>
   double ExpandedLaw<dim>::energy(const dealii::Tensor<2, dim> &H) const
   {
+    if (expansion == 0.)
+      return law.energy(H);
     return scale(3) * (in_space ? in_space->energy(elastic(put_in_space(H))) : law.energy(elastic(H)));
   }
 
   template <int dim>
   dealii::Tensor<2, dim> ExpandedLaw<dim>::stress(const dealii::Tensor<2, dim> &H) const
   {
+    if (expansion == 0.)
+      return law.stress(H);
     if (!in_space)
       return scale(2) * law.stress(elastic(H));
     const auto             of_space = in_space->stress(elastic(put_in_space(H)));
@@ -68,6 +70,8 @@ namespace perideal
   template <int dim>
   dealii::Tensor<4, dim> ExpandedLaw<dim>::tangent(const dealii::Tensor<2, dim> &H) const
   {
+    if (expansion == 0.)
+      return law.tangent(H);
     if (!in_space)
       return scale(1) * law.tangent(elastic(H));
     const auto             of_space = in_space->tangent(elastic(put_in_space(H)));
@@ -83,6 +87,8 @@ namespace perideal
   template <int dim>
   dealii::SymmetricTensor<2, 3> ExpandedLaw<dim>::cauchy_stress(const dealii::Tensor<2, dim> &H) const
   {
+    if (expansion == 0.)
+      return law.cauchy_stress(H);
     return in_space ? in_space->cauchy_stress(elastic(put_in_space(H))) : law.cauchy_stress(elastic(H));
   }
 
