@@ -64,9 +64,16 @@ namespace perideal
       deformation = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       deformation[d][d] += 1.;
-    points->turn_into_stress(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-      return law_at(i, p).stress(gradient);
-    });
+    const HyperelasticLaw<dim> &law = laws.plain(i);
+    if (laws.expand_freely())
+      points->turn_into_stress(
+        *moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
+          return law_at(i, p).stress(gradient);
+        });
+    else
+      points->turn_into_stress(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
+        return law.stress(gradient);
+      });
     add_columns<dim>(deformation * bonds->stress(i), moments->gradient(i));
     moments->force(i) = bonds->force(i);
   }

@@ -43,6 +43,10 @@ namespace perideal
       return std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); });
     }
 
+    /// Whether cells may expand; else plain() is all that the loops need.
+    bool                        expand_freely() const { return cells != nullptr; }
+    const HyperelasticLaw<dim> &plain(const LocalIndex i) const { return *of_node[i]; }
+
     /// That of the mean expansion of the cell.
     ExpandedLaw<dim> mean(const LocalIndex i) const { return with(i, cells ? cells->mean[i] : 0.); }
 
