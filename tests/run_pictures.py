@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import zlib
 from html.parser import HTMLParser
 from pathlib import Path
@@ -108,18 +109,31 @@ class Page(HTMLParser):
         self.words.append(data)
 
 
+def dump_in_browser(browser, address):
+    """(exit status, document after loading, messages) of a page in a browser without a window.
+
+    The browser keeps a socket among its temporary files, whose path the system allows 108 characters: they stand in /tmp,
+    not in the test's own folder, which may be deep.
+    """
+    with tempfile.TemporaryDirectory(prefix="page-", dir="/tmp", ignore_cleanup_errors=True) as own:
+        return execute(["env", f"TMPDIR={own}", browser, "--headless", "--no-sandbox", "--disable-gpu",
+                        "--disable-dev-shm-usage", f"--user-data-dir={own}/user", "--dump-dom", address], own, 120)
+
+
 def check_in_browser(path, n_pictures):
-    """Opens a report in a browser without a window, where there is one: every picture is drawn."""
+    """Opens a report in a browser without a window, where there is one that starts: every picture is drawn."""
     browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if browser is None:
+        return
+    status, out, err = dump_in_browser(browser, "data:text/html,<title>starts</title>")
+    if status != 0 or "<title>starts</title>" not in out:
+        print(f"the report was not opened: {browser} does not start here:\n{err}")
         return
     count = "document.title = 'drawn ' + [...document.images].filter(i => i.naturalWidth > 100).length"
     counting = path.with_name("counting.html")
     counting.write_text(path.read_text(encoding="utf-8").replace(
         "</body>", f"<script>addEventListener('load', () => {{ {count}; }});</script></body>"), encoding="utf-8")
-    command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-               f"--user-data-dir={path.parent / 'browser'}", "--dump-dom", counting.resolve().as_uri()]
-    status, out, err = execute(command, path.parent, 120)
+    status, out, err = dump_in_browser(browser, counting.resolve().as_uri())
     expect(status == 0 and f"<title>drawn {n_pictures}</title>" in out, f"the browser does not draw {n_pictures} pictures:\n{err}")
 
 
