@@ -43,6 +43,7 @@ set(perideal_sources
   parameters/point_text.cc
   parameters/probe_parameters.cc
   parameters/saint_venant_kirchhoff.cc
+  parameters/scattered_field.cc
   parameters/softening.cc
   parameters/space_time_function.cc
   parameters/stress_criteria.cc
@@ -57,6 +58,7 @@ set(perideal_sources
   mesh/abaqus_deck.cc
   mesh/abaqus_lines.cc
   mesh/abaqus_to_gmsh.cc
+  mesh/adaptation.cc
   mesh/create_mesh.cc
   mesh/generators.cc
   mesh/gmsh_elements.cc
@@ -136,6 +138,7 @@ set(perideal_sources
   output/files.cc
   output/history.cc
   output/lasting_state.cc
+  output/paraview_state.cc
   output/pictures.cc
   output/profiles.cc
   output/progress.cc
@@ -319,6 +322,7 @@ set(perideal_sources
   recorders/report.cc
   recorders/validity.cc
 
+  drivers/adaptive_run.cc
   drivers/create_driver.cc
   drivers/driver.cc
   drivers/driver_check.cc
@@ -345,6 +349,7 @@ set(perideal_sources
   application/process_scene.cc
   application/read_scene.cc
   application/rules.cc
+  application/rules_adaptation.cc
   application/rules_failure.cc
   application/rules_loads.cc
   application/rules_model.cc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/application/process_scene.h>
 #include <perideal/application/read_scene.h>
+#include <perideal/drivers/adaptive_run.h>
 #include <perideal/drivers/driver.h>
 #include <perideal/parameters/declarations.h>
 
@@ -14,6 +15,11 @@ namespace perideal
     template <int dim>
     void run_or_check(const SceneParameters &parameters, const RunContext &context, const bool only_check)
     {
+      if (parameters.adaptation.is_wanted() && !only_check)
+        {
+          run_adaptively<dim>(parameters, context, MPI_COMM_WORLD);
+          return;
+        }
       Problem<dim> problem(parameters, context, MPI_COMM_WORLD);
       const auto   driver = create_driver(problem);
       if (only_check)

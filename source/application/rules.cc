@@ -55,6 +55,7 @@ namespace perideal
                               failure_rules,
                               treatment_rules,
                               load_rules,
+                              adaptation_rules,
                               quadrature_rules,
                               solver_rules,
                               output_rules})

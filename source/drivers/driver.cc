@@ -44,8 +44,7 @@ namespace perideal
   {
     create_output_directory(problem.parameters.output_directory, problem.run.communicator);
     const DirectoryLock lock(problem.parameters.output_directory, problem.run.communicator);
-    problem.build();
-    prepare_scene();
+    build();
     if (problem.parameters.checkpoints.restart)
       open_checkpoint();
     prepare();
@@ -70,6 +69,16 @@ namespace perideal
       throw Stopped("asked to stop after " + last_step() +
                     "; the checkpoint is written\n  advice: to continue, run the same scene with --set "
                     "Checkpoints/Restart=true");
+  }
+
+  template <int dim>
+  void Driver<dim>::build()
+  {
+    if (is_built)
+      return;
+    problem.build();
+    prepare_scene();
+    is_built = true;
   }
 
   template <int dim>

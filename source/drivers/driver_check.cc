@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
 #include <perideal/drivers/driver.h>
@@ -60,8 +61,7 @@ namespace perideal
   template <int dim>
   void Driver<dim>::check()
   {
-    problem.build();
-    prepare_scene();
+    build();
     problem.weigh();
     prepare_damping();
     recorders   = std::make_unique<Recorders<dim>>(problem, kind);
@@ -92,6 +92,20 @@ namespace perideal
     if (!kind.has_motion)
       problem.find_motions();
     out << (print_error() ? "nothing was written" : "nothing was solved") << std::endl;
+  }
+
+  template <int dim>
+  ErrorEstimate Driver<dim>::estimate()
+  {
+    build();
+    problem.find_motions();
+    problem.weigh();
+    problem.check_loads();
+    if (!solve_loosely())
+      throw ComputationError(
+        "the linear solver stopped before the error could be estimated\n  advice: see how "
+        "it fares on this mesh: run the scene with --set \"Adaptation/Wanted error=0\"");
+    return estimate_mesh_error(problem, 1.);
   }
 
   template <int dim>

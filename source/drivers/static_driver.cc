@@ -31,11 +31,17 @@ namespace perideal
 
       void prepare() override
       {
-        problem.find_motions();
+        // An estimate of the error takes the same.
+        if (!problem.system)
+          {
+            problem.find_motions();
+            problem.solve_comparisons(true);
+            problem.weigh();
+          }
         problem.solve_comparisons(true);
-        problem.weigh();
-        problem.solve_comparisons(true);
-        make_solver();
+        if (!solver)
+          make_solver();
+        solver->set_tolerance(problem.parameters.solver.tolerance);
       }
 
       void make_solver()

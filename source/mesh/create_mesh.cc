@@ -2,12 +2,14 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/base/text.h>
+#include <perideal/mesh/adaptation.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/generators.h>
 #include <perideal/mesh/local_refinement.h>
 #include <perideal/mesh/manifolds.h>
 #include <perideal/mesh/mesh_checks.h>
 #include <perideal/mesh/mesh_file.h>
+#include <perideal/mesh/parent_mesh.h>
 #include <perideal/mesh/read_gmsh.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -121,18 +123,26 @@ namespace perideal
   template <int dim>
   void copy_refined(const Mesh<dim> &mesh, const int further_refinements, dealii::Triangulation<dim> &copy)
   {
-    Assert(further_refinements >= 0 ||
-             (further_refinements == -1 && mesh.refinements + mesh.local_refinement.times > 0),
+    Assert(further_refinements >= 0 || (further_refinements == -1 && has_parents(mesh)),
            dealii::ExcMessage("one refinement less needs one"));
     const auto [vertices, cells, groups] = dealii::GridTools::get_coarse_mesh_description(mesh.triangulation);
     copy.create_triangulation(vertices, cells, groups);
     attach_manifolds(mesh.cylinders, copy);
     unsigned int    globally = mesh.refinements;
     LocalRefinement locally  = mesh.local_refinement;
-    if (further_refinements < 0)
+    const bool      coarsens = further_refinements < 0;
+    if (coarsens && mesh.adapted.empty())
       --(globally > 0 ? globally : locally.times);
     copy.refine_global(globally);
     refine_locally(locally, copy);
+    refine_like(mesh.adapted, copy);
+    if (coarsens && !mesh.adapted.empty())
+      {
+        for (const auto &cell : copy.active_cell_iterators())
+          if (cell->is_locally_owned())
+            cell->set_coarsen_flag();
+        copy.execute_coarsening_and_refinement();
+      }
     copy.refine_global(std::max(further_refinements, 0));
   }
 

@@ -84,7 +84,7 @@ namespace perideal
   template <int dim>
   bool has_parents(const Mesh<dim> &mesh)
   {
-    return mesh.refinements + mesh.local_refinement.times > 0;
+    return mesh.refinements + mesh.local_refinement.times > 0 || !mesh.adapted.empty();
   }
 
   template <int dim>

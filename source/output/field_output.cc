@@ -3,6 +3,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/output/field_output.h>
 #include <perideal/output/files.h>
+#include <perideal/output/paraview_state.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -119,6 +120,7 @@ namespace perideal
     else
       write_pvtu(piece, stem(step));
     list_in_pvd(filename(step), time);
+    write_state(piece);
     at_points.clear();
     of_cells.clear();
   }
@@ -240,6 +242,16 @@ namespace perideal
       record.precision(12);
       dealii::DataOutBase::write_pvd_record(record, written);
       replace_file(directory + "/solution.pvd", record.str());
+    });
+  }
+
+  template <int dim>
+  void FieldOutput<dim>::write_state(const VtuPiece &part) const
+  {
+    const std::string text = state_text(choose_state(part, communicator));
+    write_together(communicator, [&] {
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        replace_file(directory + "/solution.pvsm", text);
     });
   }
 

@@ -112,6 +112,16 @@ namespace perideal
       return message;
     }
 
+    /// The point of space that a point is, in 2-D of the plane z = 0.
+    template <int dim>
+    dealii::Point<3> in_space(const dealii::Point<dim> &point)
+    {
+      dealii::Point<3> result;
+      for (int d = 0; d < dim; ++d)
+        result[d] = point[d];
+      return result;
+    }
+
     /// Why muParser does not understand a formula of these variables.
     InputError why_wrong(const std::string              &expression,
                          const std::vector<std::string> &variables,
@@ -151,6 +161,10 @@ namespace perideal
       double time_at(const double time) const { return argument.value(dealii::Point<dim>(), time); }
     };
     std::vector<Call> calls;
+    /// The field in the formula, null where there is none. It takes the place of muParser's time, and time
+    /// that of a constant.
+    std::string                           name_of_field;
+    std::shared_ptr<const ScatteredField> field;
     /// The formula with constants in the place of tables, and the time for which the function has these.
     std::string expression;
     double      time = std::numeric_limits<double>::quiet_NaN();
@@ -212,10 +226,23 @@ namespace perideal
       {
         throw error.parameter(parameter).given(expression);
       }
-    if (calls.empty())
+    std::string field;
+    for (const auto &name : names_in(replaced))
+      if (field_named(name.first, tables) != nullptr)
+        {
+          if (!field.empty() && field != name.first)
+            throw InputError("this formula is wrong: two fields stand in it, " + field + " and " + name.first)
+              .parameter(parameter)
+              .given(expression)
+              .allowed("one field of Tables in a formula");
+          field = name.first;
+        }
+    if (calls.empty() && field.empty())
       return;
-    called             = std::make_shared<CalledTables>();
-    called->expression = replaced;
+    called                = std::make_shared<CalledTables>();
+    called->expression    = replaced;
+    called->name_of_field = field;
+    called->field         = field_named(field, tables);
     for (const TableCall &call : calls)
       {
         called->calls.push_back({call.name,
@@ -259,6 +286,15 @@ namespace perideal
     if (perideal::is_finite(result))
       return result;
     std::ostringstream where;
+    if (called && called->field && !called->field->covers(in_space(point)))
+      {
+        where << "the field " << called->name_of_field << " has no point near (" << point << ") m";
+        throw InputError(where.str())
+          .parameter(parameter)
+          .given(expression)
+          .allowed("places around the points of its file, " + called->field->range())
+          .hint("give coordinates in metres, or set Tables/" + called->name_of_field + "/Outside = hold");
+      }
     where << "this formula is not a finite number at (" << point << ") m, t = " << time << " s";
     throw InputError(where.str())
       .parameter(parameter)
@@ -280,10 +316,13 @@ namespace perideal
         std::map<std::string, double> constants = {{"pi", dealii::numbers::PI}};
         for (const auto &call : called->calls)
           constants[call.constant] = call.table.value(call.time_at(time));
-        function->initialize(dim == 2 ? "x,y,t" : "x,y,z,t", called->expression, constants, true);
+        if (called->field)
+          constants["t"] = time;
+        const std::string last = called->field ? called->name_of_field : "t";
+        function->initialize((dim == 2 ? "x,y," : "x,y,z,") + last, called->expression, constants, true);
         called->time = time;
       }
-    function->set_time(time);
+    function->set_time(called && called->field ? called->field->value(in_space(point)) : time);
     return function->value(point);
   }
 

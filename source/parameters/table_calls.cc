@@ -20,6 +20,12 @@ namespace perideal
     return names;
   }
 
+  std::shared_ptr<const ScatteredField> field_named(const std::string &name, const Tables &tables)
+  {
+    const auto found = tables.find(name);
+    return found == tables.end() ? nullptr : found->second.field();
+  }
+
   namespace
   {
     /// The position of the parenthesis that closes the one at @p open, or npos.
@@ -35,13 +41,14 @@ namespace perideal
       return std::string::npos;
     }
 
-    /// Whether a formula names a coordinate.
-    bool names_place(const std::string &expression)
+    /// Whether a formula names a coordinate, or a field.
+    bool names_place(const std::string &expression, const Tables &tables)
     {
       const auto        names = names_in(expression);
       const std::string axes  = "xyz";
       return std::any_of(names.begin(), names.end(), [&](const auto &name) {
-        return name.first.size() == 1 && axes.find(name.first) != std::string::npos;
+        return (name.first.size() == 1 && axes.find(name.first) != std::string::npos) ||
+               field_named(name.first, tables) != nullptr;
       });
     }
   } // namespace
@@ -53,7 +60,7 @@ namespace perideal
     std::size_t done = 0;
     for (const auto &[name, end] : names_in(expression))
       {
-        if (tables.count(name) == 0 || end - name.size() < done)
+        if (tables.count(name) == 0 || end - name.size() < done || field_named(name, tables) != nullptr)
           continue;
         const std::size_t open = expression.find_first_not_of(" \t", end);
         if (open == std::string::npos || expression[open] != '(')
@@ -65,7 +72,7 @@ namespace perideal
                            " is not closed");
         calls.push_back(
           {name, expression.substr(open + 1, close - open - 1), "_table_" + std::to_string(calls.size())});
-        if (names_place(calls.back().argument))
+        if (names_place(calls.back().argument, tables))
           throw InputError("this formula is wrong: the table " + name +
                            " is a function of time, and stands in it with a place")
             .hint("between its parentheses t may stand, and no coordinate");

@@ -19,42 +19,93 @@ namespace perideal
   namespace
   {
     constexpr const char *columns_of_tables =
-      "time [s] and value, named in the first line, separated by commas";
+      "time [s] and value, of a field x, y or z [m] and value, named in the first line, separated by commas";
+
+    /// A line of a text of comma-separated values, and where it stands.
+    struct Line
+    {
+      std::string              at;
+      std::vector<std::string> fields;
+    };
+
+    /// The lines that count.
+    std::vector<Line> lines_of(const std::string &text, const std::string &filename)
+    {
+      std::istringstream stream(text);
+      std::vector<Line>  lines;
+      std::string        line;
+      for (unsigned int number = 1; std::getline(stream, line); ++number)
+        {
+          // What spreadsheets begin files with.
+          if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0)
+            line.erase(0, 3);
+          line = dealii::Utilities::trim(line);
+          if (!line.empty() && line.front() != '#')
+            lines.push_back(
+              {filename + ":" + std::to_string(number), dealii::Utilities::split_string_list(line, ',')});
+        }
+      return lines;
+    }
 
     /// The number in a field of a line.
-    double
-    number_in(const std::vector<std::string> &fields, const std::size_t column, const std::string &line)
+    double number_in(const Line &line, const std::size_t column)
     {
-      if (column >= fields.size())
-        throw InputError("a line of the table has too few values").location(line).allowed(columns_of_tables);
-      double result = 0;
+      if (column >= line.fields.size())
+        throw InputError("a line of the table has too few values")
+          .location(line.at)
+          .allowed(columns_of_tables);
+      const std::string &given  = line.fields[column];
+      double             result = 0;
       try
         {
-          result = dealii::Utilities::string_to_double(fields[column]);
+          result = dealii::Utilities::string_to_double(given);
         }
       catch (const dealii::ExceptionBase &)
         {
           throw InputError("a value of the table is not a number")
-            .location(line)
-            .given(fields[column])
+            .location(line.at)
+            .given(given)
             .hint("numbers are written with a decimal point, such as 1.5e6");
         }
       if (!is_finite(result))
-        throw InputError("a value of the table is not a finite number").location(line).given(fields[column]);
+        throw InputError("a value of the table is not a finite number").location(line.at).given(given);
       return result;
     }
 
-    /// Where a column stands in the line of their names.
-    std::size_t
-    column_named(const std::string &name, const std::vector<std::string> &names, const std::string &line)
+    bool has_column(const Line &names, const std::string &name)
     {
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found == names.end())
+      return std::find(names.fields.begin(), names.fields.end(), name) != names.fields.end();
+    }
+
+    /// Where a column stands in the line of their names.
+    std::size_t column_named(const std::string &name, const Line &names)
+    {
+      if (!has_column(names, name))
         throw InputError("the table has no column \"" + name + "\"")
-          .location(line)
-          .given(join_choices(names, ","))
+          .location(names.at)
+          .given(join_choices(names.fields, ","))
           .allowed(columns_of_tables);
-      return found - names.begin();
+      return std::find(names.fields.begin(), names.fields.end(), name) - names.fields.begin();
+    }
+
+    /// The field of the lines behind that of the names.
+    std::shared_ptr<const ScatteredField> parse_field(const std::vector<Line> &lines, const bool holds)
+    {
+      const Line               &names    = lines.front();
+      const std::size_t         of_value = column_named("value", names);
+      std::vector<unsigned int> axes;
+      for (unsigned int d = 0; d < 3; ++d)
+        if (has_column(names, std::string(1, "xyz"[d])))
+          axes.push_back(d);
+      std::vector<dealii::Point<3>> points(lines.size() - 1);
+      std::vector<double>           values;
+      for (std::size_t k = 1; k < lines.size(); ++k)
+        {
+          for (const unsigned int d : axes)
+            points[k - 1][d] = number_in(lines[k], column_named(std::string(1, "xyz"[d]), names));
+          values.push_back(number_in(lines[k], of_value));
+        }
+      return std::make_shared<const ScatteredField>(std::move(points), std::move(values), axes, holds);
     }
   } // namespace
 
@@ -68,34 +119,29 @@ namespace perideal
 
   Table Table::parse(const std::string &text, const std::string &filename, const OutsideTable outside)
   {
-    std::istringstream  stream(text);
-    std::vector<double> times, values;
-    std::size_t         of_time = 0, of_value = 0;
-    bool                has_names = false;
-    std::string         line;
-    for (unsigned int number = 1; std::getline(stream, line); ++number)
+    const std::vector<Line> lines = lines_of(text, filename);
+    if (!lines.empty() && !has_column(lines.front(), "time") &&
+        (has_column(lines.front(), "x") || has_column(lines.front(), "y") || has_column(lines.front(), "z")))
       {
-        // What spreadsheets begin files with.
-        if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0)
-          line.erase(0, 3);
-        line = dealii::Utilities::trim(line);
-        if (line.empty() || line.front() == '#')
-          continue;
-        const std::string at     = filename + ":" + std::to_string(number);
-        const auto        fields = dealii::Utilities::split_string_list(line, ',');
-        if (!has_names)
-          {
-            of_time   = column_named("time", fields, at);
-            of_value  = column_named("value", fields, at);
-            has_names = true;
-            continue;
-          }
-        times.push_back(number_in(fields, of_time, at));
-        values.push_back(number_in(fields, of_value, at));
+        if (lines.size() < 3)
+          throw InputError("the field has less than two points")
+            .location(filename)
+            .allowed(columns_of_tables);
+        Table result;
+        result.of_place = parse_field(lines, outside == OutsideTable::hold);
+        return result;
+      }
+    const std::size_t   of_time  = lines.empty() ? 0 : column_named("time", lines.front());
+    const std::size_t   of_value = lines.empty() ? 0 : column_named("value", lines.front());
+    std::vector<double> times, values;
+    for (std::size_t k = 1; k < lines.size(); ++k)
+      {
+        times.push_back(number_in(lines[k], of_time));
+        values.push_back(number_in(lines[k], of_value));
         if (times.size() > 1 && !(times.back() > times[times.size() - 2]))
           throw InputError("the times of the table do not increase")
-            .location(at)
-            .given(fields[of_time])
+            .location(lines[k].at)
+            .given(lines[k].fields[of_time])
             .allowed("a time later than that of the line before")
             .hint("sort the lines by time; a jump is two times close to each other");
       }
@@ -146,11 +192,13 @@ namespace perideal
           text.file,
           "File of comma-separated values, beside the scene or from the current directory: a line with the "
           "names of the columns, time [s] and value among them, then a line for each time. Formulas call the "
-          "table by its name, such as 1e-3*ramp(t); between the times it is linear");
+          "table by its name, such as 1e-3*ramp(t); between the times it is linear. With x, y or z [m] in "
+          "the "
+          "place of time it is a field, whose name stands in formulas alone, such as 20 + heat*t");
         prm.add_parameter("Outside",
                           text.outside,
-                          "What the table is before its first time and after its last one: error: the run "
-                          "stops before it begins; hold: the nearest value");
+                          "What the table is before its first time and after its last one, or a field away "
+                          "from its points: error: the run stops; hold: the nearest value");
         prm.leave_subsection();
       }
     prm.leave_subsection();

@@ -83,7 +83,8 @@ namespace perideal
   template <int dim>
   void Body<dim>::make_mesh(const std::string &scene_directory, MPI_Comm communicator)
   {
-    mesh = create_mesh<dim>(parameters.mesh, communicator, scene_directory);
+    if (!mesh)
+      mesh = create_mesh<dim>(parameters.mesh, communicator, scene_directory);
     for (const std::string &name : parameters.comparison.profiles)
       mesh->boundary_id(name, "Comparison/Profiles");
     for (const std::string &name : parameters.boundary_stress)

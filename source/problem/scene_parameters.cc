@@ -127,6 +127,7 @@ namespace perideal
                       output_directory,
                       "Directory for the results, from the current directory; created when missing");
     mesh.declare(prm);
+    adaptation.declare(prm);
     nodes.declare(prm);
     quadrature.declare(prm);
     model.declare(prm);

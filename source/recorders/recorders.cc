@@ -138,6 +138,8 @@ namespace perideal
     summary["changed_from"] = run.context.changed_from;
     summary["warnings"]     = run.warnings;
     summary.update(describe_discretisation(problem));
+    if (!run.adaptation.empty())
+      summary["adaptation"] = run.adaptation;
     summary.update(result);
     summary["skipped"] = list_skipped(problem);
     summary["skipped"].update(report.skipped);

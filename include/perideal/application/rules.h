@@ -81,6 +81,7 @@ namespace perideal
   std::vector<Rule>                failure_rules();
   std::vector<Rule>                treatment_rules();
   std::vector<Rule>                load_rules();
+  std::vector<Rule>                adaptation_rules();
   std::vector<Rule>                quadrature_rules();
   std::vector<Rule>                solver_rules();
   std::vector<Rule>                output_rules();

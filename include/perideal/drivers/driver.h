@@ -2,6 +2,7 @@
 #ifndef perideal_drivers_driver_h
 #define perideal_drivers_driver_h
 
+#include <perideal/problem/mesh_error.h>
 #include <perideal/recorders/recorders.h>
 
 #include <memory>
@@ -29,6 +30,11 @@ namespace perideal
     /// Collective.
     /// @throws InputError as run() does before it solves.
     void check();
+
+    /// Estimates the error that the mesh leaves in the displacement at t = 1, which it solves for to a loose
+    /// tolerance, in linear statics of the consistent form. run() goes on from there. Collective.
+    /// @throws InputError as run() does before it solves, ComputationError where the solver stops.
+    ErrorEstimate estimate();
 
   protected:
     /// Reads what the scene says of failure and motion; needs the nodes. Collective.
@@ -92,8 +98,12 @@ namespace perideal
     std::unique_ptr<Checkpoint> resumed;
     /// Of the run so far [J].
     double largest_energy = 0;
+    /// Whether mesh, nodes and families are there.
+    bool is_built = false;
 
   private:
+    /// Makes mesh, nodes and families, and reads the scene, once. Collective.
+    void build();
     void announce();
     void finish(const RunStatus status);
     /// The same when an error is on its way, which no other may replace.

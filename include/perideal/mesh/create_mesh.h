@@ -26,9 +26,9 @@ namespace perideal
    * Fills @p copy with the coarse mesh below @p mesh, with its boundary and
    * material ids and curved boundaries, and refines it like the mesh itself and
    * then globally @p further_refinements times more. With -1 one global
-   * refinement is left out (the last local one where there is no global one):
-   * that is the mesh coarsened once. The copy may be serial or distributed on
-   * any communicator; collective on the latter.
+   * refinement is left out (the last local one where there is no global one; of an
+   * adapted mesh all that cells can be coarsened): that is the mesh coarsened once. The copy may be serial or
+   * distributed on any communicator; collective on the latter.
    */
   template <int dim>
   void copy_refined(const Mesh<dim> &mesh, const int further_refinements, dealii::Triangulation<dim> &copy);

@@ -5,6 +5,7 @@
 #include <perideal/mesh/local_refinement.h>
 
 #include <deal.II/distributed/tria.h>
+#include <deal.II/grid/cell_id.h>
 
 #include <map>
 #include <set>
@@ -47,6 +48,8 @@ namespace perideal
     unsigned int refinements = 0;
     /// Refinements towards boundaries after that.
     LocalRefinement local_refinement;
+    /// Cells of all ranks that have children where the mesh was adapted after that; empty where it was not.
+    std::set<dealii::CellId> adapted;
     /// Thickness of a two-dimensional body [m]; 1 in 3-D.
     double thickness = 1.;
     /// One line for the banner: where the mesh comes from and its cells.

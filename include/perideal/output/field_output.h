@@ -25,9 +25,9 @@ namespace perideal
 
   /**
    * Writes fields on the user's own mesh, for ParaView: a compressed .vtu a step, and solution.pvd, which
-   * lists the steps with their times and is valid at any moment. Fields of nodes are data of cells. Cells
-   * share the points at which they meet, so that fields at points are continuous but for cracks, and a part
-   * that is warped by them has no gaps.
+   * lists the steps with their times and is valid at any moment; solution.pvsm, ParaView's state, shows them.
+   * Fields of nodes are data of cells. Cells share the points at which they meet, so that fields at points
+   * are continuous but for cracks, and a part that is warped by them has no gaps.
    *
    * A .vtu holds single precision, for visualisation; history and
    * profiles hold all digits.
@@ -78,6 +78,8 @@ namespace perideal
     void     write_vtu(VtuPiece &piece, const std::string &path) const;
     void     write_pvtu(VtuPiece &piece, const std::string &stem) const;
     void     list_in_pvd(const std::string &name, const double time);
+    /// Writes the state with which ParaView shows this step and all before it. Collective.
+    void write_state(const VtuPiece &part) const;
 
     /// Nodes of the owned cells, in the order of the cells.
     std::vector<LocalIndex>          node_of_cell;

@@ -18,7 +18,8 @@ namespace perideal
 
   /**
    * A scalar function of position and time from a muParser expression in
-   * x, y, z and t (and pi), and tables by their names. An empty expression makes an absent function.
+   * x, y, z and t (and pi), and tables and a field by their names. An empty expression makes an absent
+   * function.
    */
   template <int dim>
   class SpaceTimeFunction
@@ -28,7 +29,7 @@ namespace perideal
 
     /// The expression is evaluated once here, because muParser finds mistakes
     /// only then. @param parameter path of the parameter, for messages.
-    /// @param tables that it may call with a formula in t
+    /// @param tables that it may call with a formula in t, and fields that may stand in it
     /// @throws InputError on a wrong expression.
     SpaceTimeFunction(const std::string &expression,
                       const std::string &parameter,
@@ -40,7 +41,9 @@ namespace perideal
     bool depends_on_time() const { return names_time; }
 
     /// Value at a point [m] and time [s]; the function must be present.
-    /// @throws InputError, maybe on one rank alone, naming parameter, point and time where it is not finite.
+    /// @throws InputError, maybe on one rank alone, naming parameter, point and time where it is not finite
+    /// or
+    ///   its field has no point near.
     double value(const dealii::Point<dim> &point, const double time) const;
 
     /// @throws InputError where a table that it calls has no value at a time [s].

@@ -4,6 +4,7 @@
 
 #include <perideal/parameters/tables.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,9 @@ namespace perideal
 {
   /// The names in a formula, each with the position behind it.
   std::vector<std::pair<std::string, std::size_t>> names_in(const std::string &expression);
+
+  /// The field of that name, null where there is none, or a table of times.
+  std::shared_ptr<const ScatteredField> field_named(const std::string &name, const Tables &tables);
 
   /// A call of a table in a formula, such as ramp(2*t).
   struct TableCall
@@ -24,7 +28,7 @@ namespace perideal
     std::string constant;
   };
 
-  /// Puts names of constants in the place of the outermost calls of tables.
+  /// Puts names of constants in the place of the outermost calls of tables of times.
   /// @param calls gets these calls
   /// @throws InputError where a table stands without parentheses, and where its argument names a coordinate.
   std::string

@@ -4,10 +4,12 @@
 
 #include <perideal/base/input_errors.h>
 #include <perideal/parameters/choice.h>
+#include <perideal/parameters/scattered_field.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,7 @@ namespace perideal
 {
   class ParameterFile;
 
-  /// What a table is outside the times of its file.
+  /// What a table is outside the times or points of its file.
   enum class OutsideTable
   {
     error,
@@ -28,7 +30,7 @@ namespace perideal
     static constexpr const char *list[] = {"error", "hold"};
   };
 
-  /// A function of time through given values, linear between them.
+  /// A function of time through given values, linear between them; or a field, a function of place.
   class Table
   {
   public:
@@ -39,10 +41,11 @@ namespace perideal
     Table(std::vector<double> times, std::vector<double> values, const OutsideTable outside);
 
     /// Reads a text of comma-separated values: a line with the names of the columns, `time` and `value` among
-    /// them in any order, then a line for each time. Empty lines and those that begin with # do not count.
+    /// them in any order, then a line for each time; or of a field one or more of `x`, `y`, `z` and `value`,
+    /// then a line for each point. Empty lines and those that begin with # do not count.
     /// @param filename for messages
     /// @throws InputError naming file and line where a column is missing, a value is no finite number, or
-    ///   times do not increase, and where there are less than two of them.
+    ///   times do not increase, and where there are less than two times or points.
     static Table parse(const std::string &text, const std::string &filename, const OutsideTable outside);
 
     /// The value at a time [s], outside the times of the file the nearest one.
@@ -54,9 +57,13 @@ namespace perideal
     /// "from 0 s to 2.5 s".
     std::string range() const;
 
+    /// What it is where it is a function of place, null where it is one of time.
+    std::shared_ptr<const ScatteredField> field() const { return of_place; }
+
   private:
-    std::vector<double> times, values;
-    OutsideTable        outside = OutsideTable::hold;
+    std::vector<double>                   times, values;
+    OutsideTable                          outside = OutsideTable::hold;
+    std::shared_ptr<const ScatteredField> of_place;
   };
 
   /// By the names that formulas have for them.
@@ -69,7 +76,7 @@ namespace perideal
     OutsideTable outside = OutsideTable::error;
   };
 
-  /// Section "Tables": functions of time for formulas, from files.
+  /// Section "Tables": functions of time or place for formulas, from files.
   struct TableParameters
   {
     std::vector<TableText> texts;

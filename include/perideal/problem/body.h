@@ -24,8 +24,8 @@ namespace perideal
     /// The parameters must outlive this object.
     explicit Body(const SceneParameters &parameters);
 
-    /// Reads or generates the mesh, and looks up every name of a boundary or cell group that the scene
-    /// mentions. Collective.
+    /// Reads or generates the mesh where there is none, and looks up every name of a boundary or cell group
+    /// that the scene mentions. Collective.
     /// @param scene_directory where relative mesh files may lie
     /// @throws InputError on a bad mesh or an unknown name.
     void make_mesh(const std::string &scene_directory, MPI_Comm communicator);

@@ -40,8 +40,10 @@ namespace perideal
     /// Standard output of the first rank.
     dealii::ConditionalOStream screen;
     /// Whether that is a terminal, for bars that show how far the run has come.
-    const bool               is_watched;
-    Timings                  timings;
+    const bool is_watched;
+    Timings    timings;
+    /// What was found on the meshes before this one, where it was adapted; for summary.json.
+    nlohmann::ordered_json   adaptation;
     std::vector<std::string> warnings;
   };
 } // namespace perideal

@@ -5,6 +5,7 @@
 #include <perideal/fracture/crack_tracker.h>
 #include <perideal/fracture/no_fail_zones.h>
 #include <perideal/materials/models.h>
+#include <perideal/mesh/adaptation.h>
 #include <perideal/mesh/mesh_parameters.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/nodes/nodes.h>
@@ -123,6 +124,7 @@ namespace perideal
     /// Field files of dynamics, and steps between rows of their history.
     unsigned int         frames = 10, history_steps = 10;
     MeshParameters       mesh;
+    AdaptationParameters adaptation;
     NodeParameters       nodes;
     QuadratureParameters quadrature;
     ModelParameters      model;

@@ -60,6 +60,8 @@ namespace perideal
         , jumps(n_owned)
         , tractions(n_owned)
         , curvatures(n_owned)
+        , squares_by_traction(n_owned)
+        , squares_by_gap(n_owned)
       {
         for (const auto id : cells.graph().material)
           if (stiffness.count(id) == 0)
@@ -86,6 +88,9 @@ namespace perideal
       void read_polynomials(const GradientMoments<dim> &moments, const NodalVector &displacement);
       void add_strain_energy();
 
+      /// What a cell adds to the quotient of energies [J].
+      double of_energy(const LocalIndex i) const { return 1.5 * jumps[i] + tractions[i] / 3.; }
+
       const dealii::SymmetricTensor<4, dim> &stiffness_of(const LocalIndex i) const
       {
         return stiffness.at(cells.graph().material[i]);
@@ -107,9 +112,10 @@ namespace perideal
       std::vector<Polynomial>                                               polynomials;
       /// Energies of owned cells [J]: of jumps, of unmet tractions, and of the quadratic terms.
       std::vector<double> jumps, tractions, curvatures;
-      /// Of this rank: the strain energy, and what rounding leaves of it at rest [J]; integrals of
-      /// h^3 |Q^-1 r|^2 and h |p - u_b|^2 [m^5].
-      double energy = 0, rounding = 0, square_by_traction = 0, square_by_gap = 0;
+      /// Integrals of h^3 |Q^-1 r|^2 and h |p - u_b|^2 over their boundaries [m^5].
+      std::vector<double> squares_by_traction, squares_by_gap;
+      /// Of this rank: the strain energy, and what rounding leaves of it at rest [J].
+      double energy = 0, rounding = 0;
     };
 
     template <int dim>
@@ -226,8 +232,8 @@ namespace perideal
           lacking[d] = 0;
       const Vector opening = invert(acoustic_tensor(stiffness_of(i), normal)) * lacking;
       tractions[i] += 0.5 * area * h * (lacking * opening);
-      square_by_traction += area * h * h * h * opening.norm_square();
-      square_by_gap += area * h * gap.norm_square();
+      squares_by_traction[i] += area * h * h * h * opening.norm_square();
+      squares_by_gap[i] += area * h * gap.norm_square();
     }
 
     template <int dim>
@@ -265,25 +271,38 @@ namespace perideal
     {
       const MPI_Comm communicator = cells.graph().communicator;
       const auto     of_all = [&](const auto &x) { return dealii::Utilities::MPI::sum(x, communicator); };
-      double         volume = 0, square = 0, smooth = 0, rough = 0;
+      double         volume = 0, square = 0, smooth = 0, rough = 0, by_traction = 0, by_gap = 0;
       Vector         mean;
       for (LocalIndex i = 0; i < n_owned; ++i)
         {
           volume += cells.volumes()[i];
           square += cells.volumes()[i] * at_nodes[i].norm_square();
           mean += cells.volumes()[i] * at_nodes[i];
-          (jumps[i] > 0.05 * curvatures[i] ? rough : smooth) += 1.5 * jumps[i] + tractions[i] / 3.;
+          (jumps[i] > 0.05 * curvatures[i] ? rough : smooth) += of_energy(i);
+          by_traction += squares_by_traction[i];
+          by_gap += squares_by_gap[i];
         }
       const double  all_volume = of_all(volume), all_square = of_all(square), all_energy = of_all(energy);
       ErrorEstimate result;
+      result.of_cells.assign(n_owned, 0.);
       if (!(all_energy > of_all(rounding)) || !(all_square > 0))
         return result;
       const double varying =
         std::sqrt(std::max(0., 1. - of_all(mean).norm_square() / all_volume / all_square));
-      result.smooth  = varying * of_all(smooth) / all_energy;
-      result.rough   = varying * of_all(rough) / all_energy;
-      result.surface = 0.25 * std::sqrt(of_all(square_by_traction) / all_square) +
-                       0.5 * std::sqrt(of_all(square_by_gap) / all_square);
+      result.smooth                = varying * of_all(smooth) / all_energy;
+      result.rough                 = varying * of_all(rough) / all_energy;
+      const double all_by_traction = of_all(by_traction), all_by_gap = of_all(by_gap);
+      result.surface =
+        0.25 * std::sqrt(all_by_traction / all_square) + 0.5 * std::sqrt(all_by_gap / all_square);
+
+      // A part of a root: sqrt(sum) = sum of x/sqrt(sum).
+      const auto of_root = [all_square](const double part, const double all) {
+        return part > 0 ? part / std::sqrt(all * all_square) : 0.;
+      };
+      for (LocalIndex i = 0; i < n_owned; ++i)
+        result.of_cells[i] = varying * of_energy(i) / all_energy +
+                             0.25 * of_root(squares_by_traction[i], all_by_traction) +
+                             0.5 * of_root(squares_by_gap[i], all_by_gap);
       return result;
     }
   } // namespace

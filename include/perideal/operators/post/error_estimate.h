@@ -21,6 +21,8 @@ namespace perideal
     double rough = 0;
     /// Errors that stay where they arise, along the boundary of the body: h^3.5.
     double surface = 0;
+    /// What each owned cell has of total(), by node.
+    std::vector<double> of_cells = {};
 
     double total() const { return smooth + rough + surface; }
 
@@ -48,6 +50,8 @@ namespace perideal
    * The four numbers fit 73 solutions with known errors, smooth fields, thin parts, holes, corners and
    * laminates in 2-D and 3-D; fitted to two of these three kinds they hold for the third within a factor
    * of four (tests/performance/details.md).
+   *
+   * Cells have their parts of the sums; of the roots t and g those that they have of the squares.
    *
    * Where the jumps store more than a twentieth of what the quadratic terms of a cell do, the displacement
    * counts as rough: smooth ones fall below that, corners stay above.

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_mesh_adaptation_h
+#define perideal_mesh_adaptation_h
+
+#include <perideal/mesh/mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/lac/vector.h>
+
+#include <set>
+#include <vector>
+
+namespace perideal
+{
+  /// Section "Adaptation".
+  struct AdaptationParameters
+  {
+    /// Estimated error of the displacement up to which cells are refined [-]; 0: the mesh stays as it is.
+    double wanted_error = 0.;
+    /// How often at most.
+    unsigned int cycles = 10;
+    /// Cells that no adaptation may exceed.
+    unsigned int max_cells = 1000000;
+
+    void declare(dealii::ParameterHandler &prm);
+
+    bool is_wanted() const { return wanted_error > 0.; }
+  };
+
+  /// A mesh in figures.
+  struct MeshFigures
+  {
+    dealii::types::global_cell_index n_cells = 0;
+    /// From the coarse mesh on.
+    std::vector<dealii::types::global_cell_index> n_cells_by_level;
+    /// Shortest edge [m].
+    double smallest_size = 0;
+  };
+
+  /// Counts and measures the cells. Collective.
+  template <int dim>
+  MeshFigures measure(const Mesh<dim> &mesh);
+
+  /**
+   * Marks the cells that carry most of an error: the largest ones, which add up to 0.7 of it (Doerfler's
+   * marking). Collective.
+   *
+   * @param error_of_cells by active cell index, squares or energies, zero in cells of other ranks
+   * @param max_cells that the mesh may have
+   * @return whether any is marked; none where that took more cells
+   */
+  template <int dim>
+  bool
+  mark_largest(Mesh<dim> &mesh, const dealii::Vector<float> &error_of_cells, const unsigned int max_cells);
+
+  /// Refines the marked cells, and those beside them that p4est keeps within one level; the mesh remembers it
+  /// for copies. Nothing else may live on the mesh meanwhile. Collective.
+  template <int dim>
+  void refine_marked(Mesh<dim> &mesh);
+
+  /// Refines cells until all have children that are among those of another mesh that have. Collective on
+  /// distributed triangulations.
+  template <int dim>
+  void refine_like(const std::set<dealii::CellId> &refined, dealii::Triangulation<dim> &triangulation);
+} // namespace perideal
+
+#endif

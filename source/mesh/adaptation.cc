@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/exceptions.h>
+#include <perideal/base/instantiate.h>
+#include <perideal/base/text.h>
+#include <perideal/mesh/adaptation.h>
+#include <perideal/mesh/mesh_checks.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/distributed/grid_refinement.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace perideal
+{
+  void AdaptationParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Adaptation");
+    prm.add_parameter(
+      "Wanted error",
+      wanted_error,
+      "Error of the displacement (l2, relative, estimated) [-] up to which the cells that carry "
+      "most of it are refined, in linear statics of the consistent form; 0: the mesh stays as "
+      "it is",
+      dealii::Patterns::Double(0.));
+    prm.add_parameter("Cycles",
+                      cycles,
+                      "How often cells are refined at most; what is reached by then is told",
+                      dealii::Patterns::Integer(1, 30));
+    prm.add_parameter("Largest number of cells",
+                      max_cells,
+                      "Cells that no adaptation exceeds; the last mesh below is taken, and that is told",
+                      dealii::Patterns::Integer(1));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  MeshFigures measure(const Mesh<dim> &mesh)
+  {
+    const MPI_Comm communicator = mesh.triangulation.get_communicator();
+    MeshFigures    result;
+    result.n_cells       = mesh.triangulation.n_global_active_cells();
+    result.smallest_size = std::numeric_limits<double>::max();
+    result.n_cells_by_level.resize(mesh.triangulation.n_global_levels());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          ++result.n_cells_by_level[cell->level()];
+          for (const unsigned int line : cell->line_indices())
+            {
+              const auto edge = cell->line(line);
+              result.smallest_size =
+                std::min(result.smallest_size, edge->vertex(0).distance(edge->vertex(1)));
+            }
+        }
+    const auto mine = result.n_cells_by_level;
+    dealii::Utilities::MPI::sum(mine, communicator, result.n_cells_by_level);
+    result.smallest_size = dealii::Utilities::MPI::min(result.smallest_size, communicator);
+    return result;
+  }
+
+  namespace
+  {
+    /// Share of the error that the refined cells have.
+    constexpr double refined_share = 0.7;
+
+    /// Cells of all ranks that have children. Collective.
+    template <int dim>
+    std::set<dealii::CellId> refined_cells(const dealii::parallel::distributed::Triangulation<dim> &mesh)
+    {
+      std::set<dealii::CellId> mine;
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (typename dealii::Triangulation<dim>::cell_iterator child = cell;
+               child->level() > 0 && mine.insert(child->parent()->id()).second;)
+            child = child->parent();
+      const std::vector<dealii::CellId> list(mine.begin(), mine.end());
+      std::set<dealii::CellId>          result;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(mesh.get_communicator(), list))
+        result.insert(of_rank.begin(), of_rank.end());
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  bool
+  mark_largest(Mesh<dim> &mesh, const dealii::Vector<float> &error_of_cells, const unsigned int max_cells)
+  {
+    auto &triangulation = mesh.triangulation;
+    dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
+      triangulation, error_of_cells, refined_share, 0., dealii::VectorTools::L1_norm);
+    dealii::types::global_cell_index n_flagged = 0;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->clear_coarsen_flag();
+          n_flagged += cell->refine_flag_set();
+        }
+    n_flagged           = dealii::Utilities::MPI::sum(n_flagged, triangulation.get_communicator());
+    const auto n_before = triangulation.n_global_active_cells();
+    const auto n_new    = dealii::GeometryInfo<dim>::max_children_per_cell - 1;
+    if (n_flagged == 0 || n_before + n_new * n_flagged > max_cells)
+      {
+        for (const auto &cell : triangulation.active_cell_iterators())
+          cell->clear_refine_flag();
+        return false;
+      }
+    return true;
+  }
+
+  template <int dim>
+  void refine_marked(Mesh<dim> &mesh)
+  {
+    mesh.triangulation.execute_coarsening_and_refinement();
+    if (mesh.adapted.empty())
+      mesh.description += ", adapted";
+    mesh.adapted = refined_cells(mesh.triangulation);
+    check_refined_mesh(mesh.triangulation, mesh.description);
+  }
+
+  template <int dim>
+  void refine_like(const std::set<dealii::CellId> &refined, dealii::Triangulation<dim> &triangulation)
+  {
+    for (bool is_done = refined.empty(); !is_done;)
+      {
+        unsigned int n_flagged = 0;
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned() && refined.count(cell->id()) > 0)
+            {
+              cell->set_refine_flag();
+              ++n_flagged;
+            }
+        is_done = dealii::Utilities::MPI::sum(n_flagged, triangulation.get_communicator()) == 0;
+        if (!is_done)
+          triangulation.execute_coarsening_and_refinement();
+      }
+  }
+
+  PERIDEAL_INSTANTIATE(measure)
+  PERIDEAL_INSTANTIATE(mark_largest)
+  PERIDEAL_INSTANTIATE(refine_marked)
+  PERIDEAL_INSTANTIATE(refine_like)
+} // namespace perideal

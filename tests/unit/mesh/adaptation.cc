@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/mesh/adaptation.h>
+#include <perideal/mesh/parent_mesh.h>
+
+#include "mesh_test.h"
+
+#include <deal.II/distributed/tria.h>
+
+#include <set>
+
+using namespace perideal;
+
+namespace
+{
+  /// Refines twice what carries an error that falls with the distance from a corner, like r^-4.
+  template <int dim>
+  void adapt_to_corner(Mesh<dim> &mesh)
+  {
+    for (unsigned int time = 0; time < 2; ++time)
+      {
+        dealii::Vector<float> error(mesh.triangulation.n_active_cells());
+        for (const auto &cell : mesh.triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            error[cell->active_cell_index()] = cell->measure() / std::pow(cell->center().norm(), 4.);
+        ASSERT_TRUE(mark_largest(mesh, error, 100000));
+        refine_marked(mesh);
+      }
+  }
+
+  /// Ids of the active cells of all ranks.
+  template <int dim>
+  std::set<dealii::CellId> cells_of(const dealii::Triangulation<dim> &triangulation)
+  {
+    std::vector<dealii::CellId> mine;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        mine.push_back(cell->id());
+    std::set<dealii::CellId> result;
+    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(triangulation.get_communicator(), mine))
+      result.insert(of_rank.begin(), of_rank.end());
+    return result;
+  }
+
+  template <int dim>
+  void expect_copies(Mesh<dim> &mesh)
+  {
+    adapt_to_corner(mesh);
+    const auto cells = cells_of(mesh.triangulation);
+
+    dealii::parallel::distributed::Triangulation<dim> copy(MPI_COMM_WORLD);
+    copy_refined(mesh, 0, copy);
+    EXPECT_EQ(cells_of(copy), cells);
+    dealii::Triangulation<dim> serial;
+    copy_refined(mesh, 0, serial);
+    EXPECT_EQ(cells_of(serial), cells);
+    dealii::parallel::distributed::Triangulation<dim> finer(MPI_COMM_WORLD);
+    copy_refined(mesh, 1, finer);
+    EXPECT_EQ(finer.n_global_active_cells(),
+              mesh.triangulation.n_global_active_cells() * dealii::GeometryInfo<dim>::max_children_per_cell);
+
+    // Every cell has itself or its parent in the mesh coarsened once, and this rank owns it there.
+    ASSERT_TRUE(has_parents(mesh));
+    const auto parents = create_parent_mesh(mesh);
+    EXPECT_LT(parents->n_global_active_cells(), cells.size());
+    EXPECT_LE(n_parent_cells(mesh), parents->n_global_active_cells());
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          auto id = cell->id();
+          if (cell->level() > 0 && parents->create_cell_iterator(cell->parent()->id())->is_active())
+            id = cell->parent()->id();
+          const auto parent = parents->create_cell_iterator(id);
+          ASSERT_TRUE(parent->is_active());
+          EXPECT_TRUE(parent->is_locally_owned());
+        }
+  }
+} // namespace
+
+TEST(Adaptation, IsRememberedByCopiesOfThePlane)
+{
+  const auto mesh = test::generate<2>("box", {4, 3}, {1., 1.});
+  expect_copies(*mesh);
+  const auto refined = test::generate<2>("box", {2, 2}, {1., 1.}, 1);
+  expect_copies(*refined);
+}
+
+TEST(Adaptation, IsRememberedByCopiesOfTheSolid)
+{
+  const auto mesh = test::generate<3>("box", {2, 3, 2}, {1., 1., 1.});
+  expect_copies(*mesh);
+}
+
+TEST(Adaptation, RefinesTheCellsWithMostOfTheError)
+{
+  const auto            mesh = test::generate<2>("box", {4, 4}, {1., 1.});
+  dealii::Vector<float> error(mesh->triangulation.n_active_cells());
+  // One cell of sixteen has three quarters of the error.
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      error[cell->active_cell_index()] = cell->center().norm() < 0.2 ? 45. : 1.;
+  EXPECT_FALSE(mark_largest(*mesh, error, 18)) << "three cells more are 19";
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    EXPECT_FALSE(cell->refine_flag_set());
+  EXPECT_EQ(mesh->triangulation.n_global_active_cells(), 16u);
+  ASSERT_TRUE(mark_largest(*mesh, error, 19));
+  refine_marked(*mesh);
+  const MeshFigures figures = measure(*mesh);
+  EXPECT_EQ(figures.n_cells, 19u);
+  EXPECT_EQ(figures.n_cells_by_level, (std::vector<dealii::types::global_cell_index>{15, 4}));
+  EXPECT_NEAR(figures.smallest_size, 0.125, 1e-12);
+  EXPECT_NE(mesh->description.find(", adapted"), std::string::npos);
+}
