@@ -95,13 +95,13 @@ namespace perideal
   }
 
   template <int dim>
-  ErrorEstimate Driver<dim>::estimate()
+  ErrorEstimate Driver<dim>::estimate(const double tolerance)
   {
     build();
     problem.find_motions();
     problem.weigh();
     problem.check_loads();
-    if (!solve_loosely())
+    if (!solve_to(tolerance))
       throw ComputationError(
         "the linear solver stopped before the error could be estimated\n  advice: see how "
         "it fares on this mesh: run the scene with --set \"Adaptation/Wanted error=0\"");
@@ -129,7 +129,7 @@ namespace perideal
     else
       {
         problem.check_loads();
-        if (!solve_loosely())
+        if (!solve_to(std::max(1e-4, problem.parameters.solver.tolerance)))
           {
             out << "not estimated: the linear solver stopped, as it would in a run\n";
             return true;

@@ -54,10 +54,10 @@ namespace perideal
         solver_report["name"] = solver->name();
       }
 
-      bool solve_loosely() override
+      bool solve_to(const double tolerance) override
       {
         make_solver();
-        solver->set_tolerance(std::max(1e-4, problem.parameters.solver.tolerance));
+        solver->set_tolerance(tolerance);
         Step<dim> step;
         step.time = 1.;
         solve(step);

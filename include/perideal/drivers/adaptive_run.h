@@ -8,10 +8,10 @@
 namespace perideal
 {
   /**
-   * Runs a scene of linear statics on a mesh that is refined where it takes it: solves to a loose tolerance,
-   * estimates the error, refines the cells that carry most of it, and begins anew, until the estimate is what
-   * is wanted. The last mesh is solved on as any other. Where the cycles or the cells that are allowed end
-   * before, the run goes on with what is reached, and a warning says so. Collective.
+   * Runs a scene of linear statics on a mesh that is refined where it takes it: solves to a hundredth of
+   * the wanted error, estimates the error, refines the cells that carry most of it, and begins anew, until
+   * the estimate is what is wanted. The last mesh is solved on as any other. Where the cycles or the cells
+   * that are allowed end before, the run goes on with what is reached, and a warning says so. Collective.
    * @throws InputError, ComputationError and Stopped as Driver::run() does.
    */
   template <int dim>

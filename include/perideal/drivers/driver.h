@@ -31,10 +31,10 @@ namespace perideal
     /// @throws InputError as run() does before it solves.
     void check();
 
-    /// Estimates the error that the mesh leaves in the displacement at t = 1, which it solves for to a loose
+    /// Estimates the error that the mesh leaves in the displacement at t = 1, for which it solves to a
     /// tolerance, in linear statics of the consistent form. run() goes on from there. Collective.
     /// @throws InputError as run() does before it solves, ComputationError where the solver stops.
-    ErrorEstimate estimate();
+    ErrorEstimate estimate(const double tolerance);
 
   protected:
     /// Reads what the scene says of failure and motion; needs the nodes. Collective.
@@ -64,9 +64,9 @@ namespace perideal
     /// Returns the memory of its operators on this rank [B].
     virtual std::size_t memory_consumption() const;
 
-    /// Solves for all loads to a loose tolerance, where that takes one linear system. Collective.
+    /// Solves for all loads to a tolerance of its own, where that takes one linear system. Collective.
     /// @return whether the solver came to that
-    virtual bool solve_loosely() { return false; }
+    virtual bool solve_to(const double /*tolerance*/) { return false; }
 
     /// Returns lines about the end of a run.
     virtual std::string closing_lines() const { return {}; }
