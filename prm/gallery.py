@@ -25,6 +25,7 @@ SCENES = {
     "hole_in_wide_plate": ("von mises", []),
     "block_with_hole": ("von mises", ["Mesh/Cells=8, 9, 5", "Comparison/FEM=false", "Comparison/Reference=false"]),
     "drilled_block": ("von mises", ["Comparison/Reference=false"]),
+    "l_domain": ("von mises", []),
     "laminate_with_hole": ("strain", []),
     "tensor_manufactured_2d": ("displacement", []),
     "tensor_manufactured_3d": ("displacement", []),

@@ -48,8 +48,12 @@ namespace perideal
     if (problem.parameters.checkpoints.restart)
       open_checkpoint();
     prepare();
-    recorders = std::make_unique<Recorders<dim>>(problem, kind);
-    announce();
+    recorders  = std::make_unique<Recorders<dim>>(problem, kind);
+    auto skips = list_skipped(problem);
+    skips.update(skipped());
+    problem.run.screen << banner(problem, describe(), skips) << std::flush;
+    for (const std::string &warning : warnings(problem))
+      problem.run.warn(warning);
     check_loads();
     // Dynamics have moved on to their step, load steps have recorded theirs.
     recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
@@ -79,16 +83,6 @@ namespace perideal
     problem.build();
     prepare_scene();
     is_built = true;
-  }
-
-  template <int dim>
-  void Driver<dim>::announce()
-  {
-    auto skips = list_skipped(problem);
-    skips.update(skipped());
-    problem.run.screen << banner(problem, describe(), skips) << std::flush;
-    for (const std::string &warning : warnings(problem))
-      problem.run.warn(warning);
   }
 
   template <int dim>

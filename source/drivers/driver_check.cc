@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 // Driver: a scene is checked, and no more of it solved than an estimate of the error takes.
 
@@ -56,6 +57,42 @@ namespace perideal
         out << "cracks      take " << short_number(share->smallest) << " to " << short_number(share->largest)
             << " of the fracture energy by their direction, " << short_number(share->mean) << " on average\n";
     }
+
+    /// Prints what the mesh leaves of error in the consistent form; whether it solved for that. Collective.
+    /// @param solve for all loads to a tolerance; returns whether it came to that
+    template <int dim>
+    bool print_error(Problem<dim> &problem, const RunKind &kind, const std::function<bool(double)> &solve)
+    {
+      // A check is to take seconds.
+      constexpr GlobalIndex max_unknowns = 300000;
+      if (kind.has_motion || kind.has_iterations)
+        return false;
+      auto             &out     = problem.run.screen;
+      const GlobalIndex n_cells = problem.body.nodes->n_global;
+      out << "error       ";
+      if (!problem.discretisation.gradients.moments)
+        out << "not estimated: that takes Material/Form = consistent\n";
+      else if (problem.loading.expansion)
+        out << "not estimated: the estimate takes no thermal strain\n";
+      else if (problem.loading.supports->needs_reference())
+        out << "not estimated: nodes are held where a reference puts them, which the run solves for\n";
+      else if (dim * n_cells > max_unknowns)
+        out << "not estimated: " << grouped(n_cells) << " cells take long to solve for; the run tells it\n";
+      else
+        {
+          problem.check_loads();
+          if (!solve(std::max(1e-4, problem.parameters.solver.tolerance)))
+            {
+              out << "not estimated: the linear solver stopped, as it would in a run\n";
+              return true;
+            }
+          const ErrorEstimate estimate = estimate_mesh_error(problem, 1.);
+          out << in_words(estimate) << ";\n            "
+              << mesh_of_one_percent(estimate, n_cells, dim, problem.parameters.mesh.refinements) << '\n';
+          return true;
+        }
+      return false;
+    }
   } // namespace
 
   template <int dim>
@@ -91,7 +128,10 @@ namespace perideal
       problem.run.warn(warning);
     if (!kind.has_motion)
       problem.find_motions();
-    out << (print_error() ? "nothing was written" : "nothing was solved") << std::endl;
+    out << (print_error(problem, kind, [this](const double tolerance) { return solve_to(tolerance); }) ?
+              "nothing was written" :
+              "nothing was solved")
+        << std::endl;
   }
 
   template <int dim>
@@ -106,40 +146,6 @@ namespace perideal
         "the linear solver stopped before the error could be estimated\n  advice: see how "
         "it fares on this mesh: run the scene with --set \"Adaptation/Wanted error=0\"");
     return estimate_mesh_error(problem, 1.);
-  }
-
-  template <int dim>
-  bool Driver<dim>::print_error()
-  {
-    // A check is to take seconds.
-    constexpr GlobalIndex max_unknowns = 300000;
-    if (kind.has_motion || kind.has_iterations)
-      return false;
-    auto             &out     = problem.run.screen;
-    const GlobalIndex n_cells = problem.body.nodes->n_global;
-    out << "error       ";
-    if (!problem.discretisation.gradients.moments)
-      out << "not estimated: that takes Material/Form = consistent\n";
-    else if (problem.loading.expansion)
-      out << "not estimated: the estimate takes no thermal strain\n";
-    else if (problem.loading.supports->needs_reference())
-      out << "not estimated: nodes are held where a reference puts them, which the run solves for\n";
-    else if (dim * n_cells > max_unknowns)
-      out << "not estimated: " << grouped(n_cells) << " cells take long to solve for; the run tells it\n";
-    else
-      {
-        problem.check_loads();
-        if (!solve_to(std::max(1e-4, problem.parameters.solver.tolerance)))
-          {
-            out << "not estimated: the linear solver stopped, as it would in a run\n";
-            return true;
-          }
-        const ErrorEstimate estimate = estimate_mesh_error(problem, 1.);
-        out << in_words(estimate) << ";\n            "
-            << mesh_of_one_percent(estimate, n_cells, dim, problem.parameters.mesh.refinements) << '\n';
-        return true;
-      }
-    return false;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Driver)

@@ -7,9 +7,9 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
-#include <deal.II/distributed/grid_refinement.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace perideal
@@ -65,6 +65,42 @@ namespace perideal
     /// Share of the error that the refined cells have.
     constexpr double refined_share = 0.7;
 
+    /**
+     * The largest threshold, to a thousandth, above which values of all ranks have a share of their sum; zero
+     * where they are zero. Collective.
+     *
+     * (parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction ends at the largest value
+     * where a few equal ones, such as those of a symmetric body, have more than the share, and flags none.)
+     */
+    double threshold_of_share(const dealii::Vector<float> &values, const double share, MPI_Comm communicator)
+    {
+      double largest = 0, smallest = std::numeric_limits<double>::max();
+      for (const double value : values)
+        if (value > 0)
+          {
+            largest  = std::max(largest, value);
+            smallest = std::min(smallest, value);
+          }
+      largest  = dealii::Utilities::MPI::max(largest, communicator);
+      smallest = dealii::Utilities::MPI::min(smallest, communicator);
+      if (!(largest > 0))
+        return 0;
+      const auto sum_above = [&](const double threshold) {
+        double sum = 0;
+        for (const double value : values)
+          sum += value > threshold ? value : 0.;
+        return dealii::Utilities::MPI::sum(sum, communicator);
+      };
+      const double wanted = share * sum_above(0);
+      double       lower = smallest / 2, upper = largest;
+      while (upper > 1.001 * lower)
+        {
+          const double middle                           = std::sqrt(lower * upper);
+          (sum_above(middle) >= wanted ? lower : upper) = middle;
+        }
+      return lower;
+    }
+
     /// Cells of all ranks that have children. Collective.
     template <int dim>
     std::set<dealii::CellId> refined_cells(const dealii::parallel::distributed::Triangulation<dim> &mesh)
@@ -87,15 +123,15 @@ namespace perideal
   bool
   mark_largest(Mesh<dim> &mesh, const dealii::Vector<float> &error_of_cells, const unsigned int max_cells)
   {
-    auto &triangulation = mesh.triangulation;
-    dealii::parallel::distributed::GridRefinement::refine_and_coarsen_fixed_fraction(
-      triangulation, error_of_cells, refined_share, 0., dealii::VectorTools::L1_norm);
+    auto        &triangulation = mesh.triangulation;
+    const double threshold =
+      threshold_of_share(error_of_cells, refined_share, triangulation.get_communicator());
     dealii::types::global_cell_index n_flagged = 0;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && error_of_cells[cell->active_cell_index()] > threshold)
         {
-          cell->clear_coarsen_flag();
-          n_flagged += cell->refine_flag_set();
+          cell->set_refine_flag();
+          ++n_flagged;
         }
     n_flagged           = dealii::Utilities::MPI::sum(n_flagged, triangulation.get_communicator());
     const auto n_before = triangulation.n_global_active_cells();

@@ -132,15 +132,14 @@ namespace perideal
 
     void write_colours(const ParaViewState &state, StateWriter &out)
     {
-      const bool          damage = state.field == "damage";
       std::vector<double> points;
-      for (const auto &point : damage ? light_to_red : blue_to_yellow)
+      for (const auto &point : state.is_share ? light_to_red : blue_to_yellow)
         points.insert(points.end(), point.begin(), point.end());
       out.open("lookup_tables", "PVLookupTable", colours, with_view);
       out.property("RGBPoints", points);
       // Damage lies from 0 to 1; the range of all else follows the steps.
-      out.property<int>("AutomaticRescaleRangeMode", {damage ? -1 : 1});
-      out.property<int>("ScalarRangeInitialized", {damage ? 1 : 0});
+      out.property<int>("AutomaticRescaleRangeMode", {state.is_share ? -1 : 1});
+      out.property<int>("ScalarRangeInitialized", {state.is_share ? 1 : 0});
       out.close();
       out.open("representations", "ScalarBarWidgetRepresentation", colour_bar, with_view);
       out.property<int>("Enabled", {1});
@@ -209,7 +208,10 @@ namespace perideal
       return array.n_components == 1;
     });
     if (find(part.cell_data, "damage") != nullptr)
-      state.field = "damage";
+      {
+        state.field    = "damage";
+        state.is_share = true;
+      }
     else if (scalar != part.cell_data.end())
       state.field = scalar->name;
     else

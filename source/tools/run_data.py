@@ -90,7 +90,39 @@ class Body:
         marks = numpy.random.default_rng(1).integers(0, 2**62, len(self.points), dtype=numpy.uint64)
         _, first, counts = numpy.unique(marks[corners].sum(axis=1, dtype=numpy.uint64), return_index=True, return_counts=True)
         alone = first[counts == 1]
-        return corners[alone], cell[alone]
+        corners, cell = corners[alone], cell[alone]
+        outer = ~self.beside_finer(corners)
+        return corners[outer], cell[outer]
+
+    def beside_finer(self, corners):
+        """Of sides that belong to one cell each: which lie inside the body, between cells of two sizes.
+
+        Such a side has a point in its middle, which is a corner of all the finer sides on it.
+        """
+        middle = self.points[corners].mean(axis=1)
+        longest = numpy.linalg.norm(self.points[corners[:, 0]] - self.points[corners[:, corners.shape[1] // 2]], axis=1)
+        candidates = numpy.unique(corners)
+        found = nearest_points(self.points[candidates], middle)
+        gap = numpy.linalg.norm(self.points[candidates[found]] - middle, axis=1)
+        coarse = gap < 1e-3 * longest
+        hanging = numpy.zeros(len(self.points), dtype=bool)
+        hanging[candidates[found[coarse]]] = True
+        return coarse | hanging[corners].any(axis=1)
+
+
+def nearest_points(points, places):
+    """The number of the point nearest to each place."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkStaticPointLocator
+
+    grid = vtkPolyData()
+    grid.SetPoints(vtkPoints())
+    grid.GetPoints().SetData(numpy_to_vtk(numpy.ascontiguousarray(points, dtype=numpy.float64), deep=True))
+    locator = vtkStaticPointLocator()
+    locator.SetDataSet(grid)
+    locator.BuildLocator()
+    return numpy.array([locator.FindClosestPoint(place) for place in places], dtype=numpy.int64)
 
 
 def positions_by_number(points):

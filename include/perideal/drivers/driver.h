@@ -104,12 +104,9 @@ namespace perideal
   private:
     /// Makes mesh, nodes and families, and reads the scene, once. Collective.
     void build();
-    void announce();
     void finish(const RunStatus status);
     /// The same when an error is on its way, which no other may replace.
     void finish_after_error() noexcept;
-    /// Prints what the mesh leaves of error in the consistent form; whether it solved for that. Collective.
-    bool print_error();
   };
 
   /// Makes the driver that the scene asks for. Collective.

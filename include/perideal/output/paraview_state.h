@@ -19,6 +19,8 @@ namespace perideal
     /// displacement.
     std::string field;
     bool        of_cells = true;
+    /// Whether its values lie between 0 and 1.
+    bool is_share = false;
     /// Factor on the displacements, 1, 2 or 5 times a power of ten; zero without displacements.
     double magnification = 0;
     /// Corners of the body's box [m].
