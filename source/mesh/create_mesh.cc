@@ -101,6 +101,7 @@ namespace perideal
     mesh->refinements = parameters.refinements;
     for (const std::string &name : parameters.refine_at)
       mesh->local_refinement.boundaries.insert(mesh->boundary_id(name, "Mesh/Refine at"));
+    mesh->local_refinement.where  = parameters.refine_where;
     mesh->local_refinement.times  = parameters.refine_times;
     mesh->local_refinement.layers = parameters.refine_layers;
     mesh->thickness               = dim == 2 ? parameters.thickness : 1.;
@@ -114,6 +115,9 @@ namespace perideal
       check_refined_mesh(mesh->triangulation, coarse.origin);
     mesh->description = coarse.origin + ", " + grouped(mesh->triangulation.n_global_active_cells()) +
                         (dim == 2 ? " quads" : " hexes");
+    if (!parameters.refine_where.empty())
+      mesh->description +=
+        ", refined " + std::to_string(parameters.refine_times) + " times where " + parameters.refine_where;
     for (const auto id : mesh->local_refinement.boundaries)
       mesh->description +=
         ", refined " + std::to_string(parameters.refine_times) + " times at " + mesh->boundary_name(id);

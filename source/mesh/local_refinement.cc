@@ -2,6 +2,7 @@
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/mesh/local_refinement.h>
+#include <perideal/parameters/space_time_function.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria_base.h>
@@ -70,17 +71,43 @@ namespace perideal
       vertices = grown;
       return n_flagged;
     }
+
+    /// Flags own cells with their centre or a vertex where a formula is not zero. Returns the number of those
+    /// that were not flagged before.
+    template <int dim>
+    std::uint64_t flag_places(const SpaceTimeFunction<dim> &where, dealii::Triangulation<dim> &triangulation)
+    {
+      const auto    is_there  = [&](const dealii::Point<dim> &x) { return where.value(x, 0.) != 0.; };
+      std::uint64_t n_flagged = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && !cell->refine_flag_set())
+          {
+            const auto indices = cell->vertex_indices();
+            if (is_there(cell->center()) ||
+                std::any_of(indices.begin(), indices.end(), [&](const unsigned int v) {
+                  return is_there(cell->vertex(v));
+                }))
+              {
+                cell->set_refine_flag();
+                ++n_flagged;
+              }
+          }
+      return n_flagged;
+    }
   } // namespace
 
   template <int dim>
   void refine_locally(const LocalRefinement &refinement, dealii::Triangulation<dim> &triangulation)
   {
+    const SpaceTimeFunction<dim> where(refinement.where, "Mesh/Refine where");
     for (unsigned int time = 0; time < refinement.times; ++time)
       {
         std::uint64_t     n_flagged = 0;
         std::vector<bool> vertices  = boundary_vertices(refinement.boundaries, triangulation);
         for (unsigned int layer = 0; layer < refinement.layers; ++layer)
           n_flagged = flag_layer(vertices, triangulation);
+        if (where.is_present())
+          n_flagged += flag_places(where, triangulation);
         const double n_cells = static_cast<double>(triangulation.n_global_active_cells()) +
                                (dealii::GeometryInfo<dim>::max_children_per_cell - 1.) *
                                  dealii::Utilities::MPI::sum(n_flagged, triangulation.get_communicator());

@@ -77,6 +77,12 @@ namespace perideal
                       "Boundaries (names or ids, separated by commas) at which the mesh is refined further: "
                       "the cells next to them, then their children next to them, and so on",
                       List(Anything(), 0, List::max_int_value, ","));
+    prm.add_parameter(
+      "Refine where",
+      refine_where,
+      "Where the mesh is refined further, a formula in x, y, z that is not zero there, such as "
+      "abs(y) < 0.01 && x > 0.1: the cells with their centre or a vertex there, then their children, "
+      "and so on; empty: nowhere");
     prm.add_parameter("Refine times", refine_times, "How often that is done [-]", Integer(0, 12));
     prm.add_parameter("Refine layers",
                       refine_layers,
@@ -126,14 +132,15 @@ namespace perideal
       errors.add(InputError("the thickness must be positive")
                    .parameter("Mesh/Thickness")
                    .allowed("a number >= 1e-12 [m]"));
-    if (refine_times > 0 && refine_at.empty())
-      errors.add(InputError("no boundary is named to refine at")
+    const bool refines_somewhere = !refine_at.empty() || !refine_where.empty();
+    if (refine_times > 0 && !refines_somewhere)
+      errors.add(InputError("no boundary is named to refine at, nor a place")
                    .parameter("Mesh/Refine at")
-                   .allowed("boundary names or ids, or Refine times = 0"));
-    if (refine_times == 0 && !refine_at.empty())
-      errors.add(InputError("boundaries are named to refine at, but not how often")
+                   .allowed("boundary names or ids, a formula for Refine where, or Refine times = 0"));
+    if (refine_times == 0 && refines_somewhere)
+      errors.add(InputError("boundaries or places are named to refine at, but not how often")
                    .parameter("Mesh/Refine times")
-                   .allowed("1 to 12, or an empty Refine at"));
+                   .allowed("1 to 12, or an empty Refine at and Refine where"));
     if (!corner.empty() && !generator_has_corner(generator))
       errors.add(InputError("the Corner is one of the generator box").parameter("Mesh/Corner"));
     if (!generator.empty() && !cylinders.empty())

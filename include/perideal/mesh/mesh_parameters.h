@@ -39,7 +39,9 @@ namespace perideal
     unsigned int refinements = 0;
     /// Boundaries, by name or id, whose cells are refined after that.
     std::vector<std::string> refine_at;
-    /// How often they are, and how many cells deep.
+    /// Where cells are refined besides, a formula in x, y, z that is not zero there; empty: nowhere.
+    std::string refine_where;
+    /// How often they are, and at boundaries how many cells deep.
     unsigned int refine_times = 0, refine_layers = 4;
     /// Thickness of a two-dimensional body [m].
     double thickness = 1.;

@@ -159,6 +159,34 @@ TEST(LocalRefinement, LayersAreDeepOnAnyNumberOfRanks)
             (std::map<int, std::uint64_t>{{0, 5 * 4}, {1, 3 * 8}, {2, 6 * 16}}));
 }
 
+TEST(LocalRefinement, ReachesPlaces)
+{
+  MeshParameters parameters;
+  parameters.generator    = "box";
+  parameters.cells        = {8, 8};
+  parameters.size         = {1., 1.};
+  parameters.refine_where = "x > 0.3 && abs(y - 0.5) < 0.01";
+  parameters.refine_times = 2;
+  const auto mesh         = create_mesh<2>(parameters, MPI_COMM_WORLD, "");
+  EXPECT_NE(mesh->description.find("refined 2 times where x > 0.3"), std::string::npos);
+  // Two rows of 6 cells have a vertex there, the first one at x = 0.375; of their children two rows of 12,
+  // the first one with a vertex at x = 0.3125.
+  const auto levels = cells_by_level(mesh->triangulation);
+  EXPECT_EQ(levels.at(2), 4u * 2u * 12u);
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->center()[0] > 0.3 && std::abs(cell->center()[1] - 0.5) < 0.06)
+      {
+        EXPECT_EQ(cell->level(), 2);
+      }
+  dealii::parallel::distributed::Triangulation<2> copy(MPI_COMM_WORLD);
+  copy_refined(*mesh, 0, copy);
+  EXPECT_EQ(cells_by_level(copy), levels);
+
+  parameters.refine_where = "z > 0";
+  expect_input_error([&] { create_mesh<2>(parameters, MPI_COMM_WORLD, ""); },
+                     {"Mesh/Refine where", "it has no z"});
+}
+
 TEST(LocalRefinement, CopiesAreRefinedAlike)
 {
   const auto                                      mesh = refined_plate<2>(1, 2, 2);
