@@ -109,6 +109,18 @@ namespace
       }
   }
 
+  /// Cells add up to the whole.
+  void expect_sum_of_cells(const ErrorEstimate &estimate)
+  {
+    double sum = 0;
+    for (const double of_cell : estimate.of_cells)
+      {
+        EXPECT_GE(of_cell, 0.);
+        sum += of_cell;
+      }
+    EXPECT_NEAR(dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD), estimate.total(), 1e-10 * estimate.total());
+  }
+
   /// A uniform strain e along x whose tractions are missing all around. With h the size of a cell,
   /// T = U 2 h (1 + (dim - 1) (C12/C11)^2), t^2 = 2 h^3 (1 + (dim - 1) (C12/C11)^2)/(1/3), and half of the
   /// displacement is a translation: 1 - (1/2)^2/(1/3) = 1/4.
@@ -128,6 +140,13 @@ namespace
     const double square = 1. / 3. - h * h / 12.;
     EXPECT_NEAR(read.smooth + read.rough, std::sqrt(1. - 0.25 / square) * sides * h / 3., 1e-9);
     EXPECT_NEAR(read.surface, 0.25 * std::sqrt(sides * h * h * h / square), 1e-9);
+    expect_sum_of_cells(read);
+    // Cells at the surface have all of it.
+    unsigned int n_inside = 0;
+    for (const double of_cell : read.of_cells)
+      n_inside += of_cell < 1e-12 ? 1 : 0;
+    EXPECT_EQ(dealii::Utilities::MPI::sum(n_inside, MPI_COMM_WORLD),
+              dealii::Utilities::fixed_power<dim>(n - 2));
   }
 
   /// Jumps of cubic displacements store h^4, gaps to what is prescribed take h^3.5.
@@ -142,6 +161,7 @@ namespace
     EXPECT_NEAR(std::log2((coarse.smooth + coarse.rough) / (fine.smooth + fine.rough)), 4., 0.5);
     EXPECT_NEAR(std::log2(coarse.surface / fine.surface), 3.5, 0.3);
     EXPECT_GT(coarse.total(), 1e-3);
+    expect_sum_of_cells(coarse);
   }
 } // namespace
 
