@@ -134,7 +134,8 @@ namespace perideal
           if (dealii::Utilities::MPI::max(bad, communicator) > 0)
             throw InputError("this formula is not a finite number somewhere on its boundary")
               .parameter("Boundary conditions/" + condition.name + "/" + name)
-              .hint("look for poles and for roots and logarithms of negative numbers");
+              .hint("look for poles, for roots and logarithms of negative numbers, and for places far from "
+                    "all points of a field of Tables, whose coordinates are in metres");
         };
         const char *axes[] = {"x", "y", "z"};
         for (int d = 0; d < dim; ++d)

@@ -118,7 +118,8 @@ namespace perideal
           throw InputError("this formula is not a finite number somewhere at the nodes that it holds")
             .parameter("Boundary conditions/" + loads.conditions[k].name +
                        (loads.conditions[k].displacement[d].is_present() ? "/u_" : "/v_") + axes[d])
-            .hint("look for poles and for roots and logarithms of negative numbers");
+            .hint("look for poles, for roots and logarithms of negative numbers, and for places far from all "
+                  "points of a field of Tables, whose coordinates are in metres");
   }
 
   template <int dim>

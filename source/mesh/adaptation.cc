@@ -28,10 +28,12 @@ namespace perideal
                       cycles,
                       "How often cells are refined at most; what is reached by then is told",
                       dealii::Patterns::Integer(1, 30));
-    prm.add_parameter("Largest number of cells",
-                      max_cells,
-                      "Cells that no adaptation exceeds; the last mesh below is taken, and that is told",
-                      dealii::Patterns::Integer(1));
+    prm.add_parameter(
+      "Largest number of cells",
+      max_cells,
+      "Cells beyond which no cell is marked any more, but for those that p4est refines beside marked "
+      "ones; the mesh before is taken, and that is told",
+      dealii::Patterns::Integer(1));
     prm.leave_subsection();
   }
 

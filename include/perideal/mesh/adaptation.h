@@ -19,7 +19,7 @@ namespace perideal
     double wanted_error = 0.;
     /// How often at most.
     unsigned int cycles = 10;
-    /// Cells that no adaptation may exceed.
+    /// Cells that marked cells may not make more of.
     unsigned int max_cells = 1000000;
 
     void declare(dealii::ParameterHandler &prm);
@@ -46,7 +46,7 @@ namespace perideal
    * marking). Collective.
    *
    * @param error_of_cells by active cell index, squares or energies, zero in cells of other ranks
-   * @param max_cells that the mesh may have
+   * @param max_cells that the mesh may have, those aside that p4est refines besides
    * @return whether any is marked; none where that took more cells
    */
   template <int dim>

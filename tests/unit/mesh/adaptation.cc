@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/mesh/adaptation.h>
-#include <perideal/mesh/parent_mesh.h>
 
 #include "mesh_test.h"
 
@@ -58,21 +57,7 @@ namespace
     EXPECT_EQ(finer.n_global_active_cells(),
               mesh.triangulation.n_global_active_cells() * dealii::GeometryInfo<dim>::max_children_per_cell);
 
-    // Every cell has itself or its parent in the mesh coarsened once, and this rank owns it there.
-    ASSERT_TRUE(has_parents(mesh));
-    const auto parents = create_parent_mesh(mesh);
-    EXPECT_LT(parents->n_global_active_cells(), cells.size());
-    EXPECT_LE(n_parent_cells(mesh), parents->n_global_active_cells());
-    for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          auto id = cell->id();
-          if (cell->level() > 0 && parents->create_cell_iterator(cell->parent()->id())->is_active())
-            id = cell->parent()->id();
-          const auto parent = parents->create_cell_iterator(id);
-          ASSERT_TRUE(parent->is_active());
-          EXPECT_TRUE(parent->is_locally_owned());
-        }
+    test::expect_parents_of_all_cells(mesh);
   }
 } // namespace
 

@@ -46,33 +46,12 @@ namespace
     return result;
   }
 
-  /// Of every own cell, the parent or the cell itself is an own active cell of
-  /// the parent mesh; nothing else is in it, and it covers the same body.
+  /// The parent mesh has the parents of all cells, and covers the same body.
   template <int dim>
   void expect_parents(const Mesh<dim> &mesh)
   {
-    ASSERT_TRUE(has_parents(mesh));
-    const auto               parents = create_parent_mesh(mesh);
-    std::set<dealii::CellId> found;
-    for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          auto id = cell->id();
-          if (cell->level() > 0 && parents->create_cell_iterator(cell->parent()->id())->is_active())
-            id = cell->parent()->id();
-          const auto parent = parents->create_cell_iterator(id);
-          ASSERT_TRUE(parent->is_active());
-          ASSERT_FALSE(parent->is_artificial());
-          EXPECT_TRUE(parent->is_locally_owned());
-          EXPECT_EQ(parent->material_id(), cell->material_id());
-          found.insert(id);
-        }
-    std::uint64_t n_owned = 0;
-    for (const auto &cell : parents->active_cell_iterators())
-      n_owned += cell->is_locally_owned() ? 1 : 0;
-    EXPECT_EQ(found.size(), n_owned);
-    EXPECT_LT(parents->n_global_active_cells(), mesh.triangulation.n_global_active_cells());
-    EXPECT_LE(n_parent_cells(mesh), parents->n_global_active_cells());
+    expect_parents_of_all_cells(mesh);
+    const auto parents = create_parent_mesh(mesh);
 
     dealii::Triangulation<dim> serial;
     copy_refined(mesh, -1, serial);
