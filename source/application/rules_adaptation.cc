@@ -5,13 +5,9 @@
 
 namespace perideal
 {
-  namespace
-  {
-    using Scene = SceneParameters;
-  } // namespace
-
   std::vector<Rule> adaptation_rules()
   {
+    using Scene              = SceneParameters;
     const char *const wanted = "Adaptation/Wanted error";
     return {
       refuse(
