@@ -198,9 +198,10 @@ namespace perideal
 
   void resolve(SceneParameters &scene)
   {
-    using Use = ModelParameters::Use;
+    using Use            = ModelParameters::Use;
+    const bool by_stress = scene.material.has_criterion() && scene.material.softens();
     scene.model.resolve(scene.dimension,
-                        can_break(scene)                ? Use::failure :
+                        can_break(scene)                ? by_stress ? Use::stress_onset : Use::failure :
                         scene.solver.is_linear_static() ? Use::statics :
                                                           Use::motion,
                         scene.solver.is_dynamic());

@@ -9,14 +9,31 @@ namespace perideal
   {
     using Scene = SceneParameters;
 
+    bool softens_by_stress(const Scene &scene)
+    {
+      return scene.material.has_criterion() && scene.material.softens();
+    }
+
+    /// The bonds of the zone have one stiffness in all directions, and do not change it with strain.
+    bool is_linear_and_isotropic(const Scene &scene)
+    {
+      const auto isotropic = [](const MaterialProperties &m) { return m.symmetry.is_isotropic(); };
+      return scene.model.law->takes_any_symmetry && isotropic(scene.material.body) &&
+             std::all_of(scene.material.groups.begin(), scene.material.groups.end(), [&](const auto &group) {
+               return isotropic(group.second);
+             });
+    }
+
     std::vector<std::string> stretches_of_bonds_that_break_by_stress(const Scene &scene)
     {
       std::vector<std::string> result;
       const auto               check = [&](const MaterialProperties &properties, const std::string &section) {
-        if (scene.model.is_correspondence() && properties.mean_fracture_energy() > 0)
+        if (!scene.model.is_correspondence() || softens_by_stress(scene))
+          return;
+        if (properties.mean_fracture_energy() > 0)
           result.push_back(section +
                            (properties.fracture_energy > 0 ? "/Fracture energy" : "/Fracture energies"));
-        else if (scene.model.is_correspondence() && properties.critical_stretch > 0)
+        else if (properties.critical_stretch > 0)
           result.push_back(section + "/Critical stretch");
       };
       check(scene.material.body, "Material");
@@ -71,17 +88,41 @@ namespace perideal
     return {
       refuse(
         "Material/Failure criterion",
-        "Material/Model other than correspondence",
-        [](const Scene &s) { return s.material.has_criterion() && !s.model.is_correspondence(); },
+        "Material/Softening = none, Material/Model other than correspondence",
+        [](const Scene &s) {
+          return s.material.has_criterion() && !s.material.softens() && !s.model.is_correspondence();
+        },
         "the bonds of this model break by stretch",
-        "none for Material/Model = ...",
-        "set Material/Fracture energy or Critical stretch"),
+        "none for Material/Model = ... with Material/Softening = none",
+        "set Material/Fracture energy or Critical stretch, and Material/Softening for bonds that a stress "
+        "starts"),
+      refuse(
+        "Material/Failure criterion",
+        "Material/Softening other than none, Material/Form other than consistent",
+        [](const Scene &s) { return softens_by_stress(s) && !s.model.is_consistent(); },
+        "bonds whose softening a stress starts are those that the consistent form turns into",
+        "none for this Material/Form",
+        "set Material/Form = consistent of Material/Model = extended ordinary or correspondence"),
       refuse(
         "Material/Softening",
-        "Material/Softening other than none, Material/Model = correspondence",
-        [](const Scene &s) { return s.material.softens() && s.model.is_correspondence(); },
+        "Material/Softening other than none, Material/Failure criterion = none, Material/Model = "
+        "correspondence",
+        [](const Scene &s) {
+          return s.material.softens() && !s.material.has_criterion() && s.model.is_correspondence();
+        },
         "the bonds of this model break by stress",
-        "none for Material/Model = correspondence"),
+        "none for Material/Model = correspondence without Material/Failure criterion"),
+      refuse(
+        "Material/Softening",
+        "Material/Softening other than none, Material/Model = correspondence, with a Material/Law that is "
+        "not "
+        "linear or a Symmetry other than isotropic",
+        [](const Scene &s) {
+          return s.material.softens() && s.model.is_correspondence() && !is_linear_and_isotropic(s);
+        },
+        "the bonds that cells turn into where they soften are those of an isotropic, linear solid",
+        "none for this solid",
+        "set Material/Law = linear elastic or = Saint Venant-Kirchhoff"),
       refuse(
         "Material/Multipliers",
         "Material/Multipliers = recomputed, Material/Softening other than none",
@@ -97,11 +138,17 @@ namespace perideal
       refuse(
         "Material/Form",
         "Material/Form = consistent, Material/Model other than extended ordinary, with what breaks bonds "
-        "(Material/Fracture energy, Critical stretch, Failure criterion) and Solver/Name other than static",
-        [](const Scene &s) { return has_fracture_zone(s) && s.model.model->default_forms.in_zone.empty(); },
+        "(Material/Fracture energy, Critical stretch, Failure criterion) and Solver/Name other than static; "
+        "of "
+        "Material/Model = correspondence with Material/Softening = none",
+        [](const Scene &s) {
+          return has_fracture_zone(s) &&
+                 (!s.model.grows_by_softening() || (s.model.is_correspondence() && !s.material.softens()));
+        },
         "cracks do not grow in the consistent form of this model",
         "automatic where bonds break; consistent with Precracks alone",
-        "or set Material/Model = extended ordinary"),
+        "or set Material/Model = extended ordinary, or Material/Softening and Fracture energy for Failure "
+        "criterion"),
       refuse_each(
         "Cracks/NAME/Branch length",
         "Dimension = 3",

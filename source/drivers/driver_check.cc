@@ -28,7 +28,9 @@ namespace perideal
       const Nodes<dim>               &nodes = *body.nodes;
       auto                           &out   = problem.run.screen;
       typename Failure<dim>::Breaking breaking;
-      if (can_break(problem.parameters) && problem.parameters.model.model->critical_stretch)
+      const MaterialParameters       &material  = problem.parameters.material;
+      const bool                      by_stress = material.has_criterion();
+      if (can_break(problem.parameters) && (!by_stress || material.softens()))
         breaking = Failure<dim>::breaking(body, problem.discretisation);
       for (const auto id : body.mesh->material_ids)
         {
@@ -40,11 +42,13 @@ namespace perideal
           const MaterialProperties &data = body.properties_of(id);
           out << "material    " << body.mesh->material_name(id) << ": ";
           if (breaking.stretch.count(id) > 0)
-            out << "critical stretch " << short_number(breaking.stretch.at(id)) << " on average\n";
+            out << "critical stretch " << short_number(breaking.stretch.at(id)) << " on average"
+                << (by_stress ? ", softening from " + name_of(material.failure_criterion) + " on" : "")
+                << "\n";
           else if (const double strength = data.tensile_strength; strength > 0)
             // Irwin's length: a crack in an infinite plate with K^2 = E G bears the strength at
             // r = E G/(2 pi f^2).
-            out << name_of(problem.parameters.material.failure_criterion) << ", " << short_number(strength)
+            out << name_of(material.failure_criterion) << ", " << short_number(strength)
                 << " Pa; at half the largest horizon, " << short_number(0.5 * horizon)
                 << " m, before a crack it stands for a fracture energy of "
                 << short_number(dealii::numbers::PI * horizon * strength * strength /

@@ -94,9 +94,8 @@ namespace perideal
       "Force of the extended ordinary, the tensor involved and the correspondence model: automatic: "
       "consistent in statics and for correspondence where nothing breaks, else energy, moment corrected or "
       "family; consistent: strain from the faces of the mesh, bonds stabilise, symmetric, the most accurate, "
-      "with sharp precracks; of the extended ordinary model cracks grow in it, where it turns into the "
-      "energy "
-      "form" +
+      "with sharp precracks; where bonds soften by a Failure criterion, and in motion or load steps of the "
+      "extended ordinary model if it is asked for, cracks grow in it: there it turns into the energy form" +
         meanings_of_forms(),
       Selection(pattern_of_forms()));
     prm.add_parameter(
@@ -127,9 +126,10 @@ namespace perideal
   void ModelParameters::resolve(const int dimension, const Use use, const bool moves)
   {
     if (form == automatic)
-      form = use == Use::statics ? model->default_forms.statics :
-             use == Use::motion  ? model->default_forms.motion :
-                                   model->default_forms.failure;
+      form = use == Use::statics                              ? model->default_forms.statics :
+             use == Use::motion                               ? model->default_forms.motion :
+             use == Use::stress_onset && grows_by_softening() ? consistent_form().name :
+                                                                model->default_forms.failure;
     const FormTraits &traits = form_traits();
     if (influence_function == automatic)
       influence_function = traits.defaults.influence_function;
@@ -145,6 +145,8 @@ namespace perideal
   {
     ModelParameters result = *this;
     result.form            = model->default_forms.in_zone;
+    if (!model->default_forms.in_zone_of.empty())
+      result.model = model->default_forms.in_zone_of;
     if (influence_function == form_traits().defaults.influence_function)
       result.influence_function = result.form_traits().defaults.influence_function;
     return result;

@@ -174,18 +174,22 @@ namespace perideal
     prm.add_parameter(
       "Failure criterion",
       failure_criterion,
-      "By which stress bonds of Model = correspondence break, the mean of that at their ends: " +
+      "By which stress bonds of Model = correspondence break, the mean of that at their ends; with "
+      "Softening, "
+      "where the bonds of a node begin to soften, of Form = consistent, which takes Fracture energy to the "
+      "end: " +
         meanings_of<StressCriterionTraits>() +
-        ". Principal stresses are those in space. Bonds of other models break by stretch");
+        ". Principal stresses are those in space. Without it bonds break by stretch");
     prm.add_parameter(
       "Softening",
       softening,
-      "How the force of bonds that break by stretch falls as they open, with the fracture energy for the "
+      "How the force of bonds falls as they open, with the fracture energy for the "
       "area below: " +
         meanings_of<SofteningTraits>() +
         ". Cracks of bonds that break at once grow late. With Tensile strength softening begins where the "
-        "bonds of a family bear it together; without, at 0.71 times the critical stretch of bonds that break "
-        "at once");
+        "bonds of a family bear it together, or where a Failure criterion says so; without, at 0.71 times "
+        "the "
+        "critical stretch of bonds that break at once");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {
@@ -233,12 +237,19 @@ namespace perideal
         InputError("a strength is given, and nothing breaks by stress")
           .parameter(section + (has_tensile_strength ? "/Tensile strength" : "/Compressive strength"))
           .hint("set Material/Failure criterion, or Softening, or remove it"));
-    if (has_criterion() && (material.mean_fracture_energy() > 0 || material.critical_stretch > 0))
+    const bool has_energy = material.mean_fracture_energy() > 0;
+    if (has_criterion() && (material.critical_stretch > 0 || (has_energy && !softens())))
       errors.add(InputError("bonds break either by stress or by stretch")
-                   .parameter(section + (material.fracture_energy > 0  ? "/Fracture energy" :
-                                         material.critical_stretch > 0 ? "/Critical stretch" :
+                   .parameter(section + (material.critical_stretch > 0 ? "/Critical stretch" :
+                                         material.fracture_energy > 0  ? "/Fracture energy" :
                                                                          "/Fracture energies"))
-                   .allowed("0 for Failure criterion = " + name_of(failure_criterion)));
+                   .allowed("0 for Failure criterion = " + name_of(failure_criterion))
+                   .hint("a stress may begin what a fracture energy ends: set Material/Softening"));
+    if (has_criterion() && softens() && has_energy != (material.tensile_strength > 0))
+      errors.add(InputError("a stress begins to soften bonds, and a fracture energy ends it: both are needed")
+                   .parameter(section + (has_energy ? "/Tensile strength" : "/Fracture energy"))
+                   .allowed("a number > 0 for Failure criterion = " + name_of(failure_criterion) +
+                            " with Softening = " + name_of(softening)));
     // Weaker in compression, sin(phi) = (f_c - f_t)/(f_c + f_t) would be negative.
     if (failure_criterion->has_compressive_strength && material.tensile_strength > 0 &&
         !(material.compressive_strength >= material.tensile_strength))

@@ -18,6 +18,14 @@ namespace perideal
     /// of 1/3 bonds beside the crack soften too, and it dissipates 1.06; above .8 the grid traps it.
     const double first_share = std::sqrt(1. / 2.);
 
+    /// What bonds that break are of.
+    template <int dim>
+    ModelParameters model_of_bonds(const Body<dim> &body)
+    {
+      const ModelParameters &model = body.parameters.model;
+      return has_fracture_zone(body.parameters) ? model.in_zone() : model;
+    }
+
     /// The strain along a uniaxial stress of the tensile strength, and its contraction over that [-]; {0, 0}
     /// of materials without one.
     template <int dim>
@@ -40,7 +48,7 @@ namespace perideal
     if (material.critical_stretch > 0)
       return material.critical_stretch;
     if (material.mean_fracture_energy() > 0 && !body.parameters.model.calibrates_bonds())
-      return body.parameters.model.critical_stretch(
+      return model_of_bonds(body).critical_stretch(
         body.solids.at(id).isotropic(), material.mean_fracture_energy(), horizon);
     return never;
   }
@@ -48,7 +56,7 @@ namespace perideal
   template <int dim>
   double first_strain(const Body<dim> &body, const dealii::types::material_id id, const double horizon)
   {
-    const ModelParameters    &model    = body.parameters.model;
+    const ModelParameters     model    = model_of_bonds(body);
     const MaterialProperties &material = body.properties_of(id);
     // Of the bonds of a family that are calibrated, the first begin to fail at .75 to .84 of what their
     // material says (squares and cubes, horizons 3.01 and 5.01, with a strength and without).
@@ -111,6 +119,8 @@ namespace perideal
   template <int dim>
   double BondLimits<dim>::first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
   {
+    if (body.parameters.material.has_criterion())
+      return never;
     const auto of_end = [&](const LocalIndex end, const std::vector<double> &of_family) {
       if (!of_family.empty() && of_family[slot] > 0)
         return of_family[slot];

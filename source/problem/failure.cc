@@ -18,20 +18,16 @@ namespace perideal
 {
   namespace
   {
-    /// Gives bonds that break by stress the strengths of their materials.
+    /// Returns the share of its strength that a stress takes of each material.
     template <int dim>
-    void set_strengths(const Body<dim>                                               &body,
-                       const std::function<bool(const LocalIndex, const LocalIndex)> &can_break,
-                       CorrespondenceForce<dim>                                      &force)
+    typename CorrespondenceForce<dim>::Utilisation utilisation_of_strengths(const Body<dim> &body)
     {
       std::map<dealii::types::material_id, StressCriterion> criteria;
       for (const auto id : body.mesh->material_ids)
         criteria[id] = stress_criterion(body.parameters.material, body.properties_of(id));
-      force.set_strength(
-        [criteria](const dealii::types::material_id id, const dealii::SymmetricTensor<2, 3> &stress) {
-          return criteria.at(id).utilisation(stress);
-        },
-        can_break);
+      return [criteria](const dealii::types::material_id id, const dealii::SymmetricTensor<2, 3> &stress) {
+        return criteria.at(id).utilisation(stress);
+      };
     }
   } // namespace
 
@@ -95,7 +91,7 @@ namespace perideal
     };
     if (auto *by_stress = dynamic_cast<CorrespondenceForce<dim> *>(&force))
       {
-        set_strengths<dim>(body, can_both, *by_stress);
+        by_stress->set_strength(utilisation_of_strengths(body), can_both);
         return;
       }
     const auto set_limits = [&body, &discretisation, can_both](const Families<dim> &of,
@@ -109,14 +105,23 @@ namespace perideal
         SofteningLaw(body.parameters.material.softening),
         [&](const LocalIndex i, const LocalIndex j) { return limits.first(i, j, bonds.find(i, j)); });
     };
-    if (auto *zoned = dynamic_cast<ZonedForce<dim> *>(&force))
-      zoned->set_limits({set_limits, [&](const LocalIndex i) {
-                           return unbreakable[i] ?
-                                    std::numeric_limits<double>::infinity() :
-                                    first_strain(body, families.material[i], families.horizon[i]);
-                         }});
-    else
-      set_limits(families, force);
+    auto *zoned = dynamic_cast<ZonedForce<dim> *>(&force);
+    if (zoned == nullptr)
+      {
+        set_limits(families, force);
+        return;
+      }
+    typename ZonedForce<dim>::Limits limits{
+      set_limits, [&](const LocalIndex i) {
+        return unbreakable[i] ? std::numeric_limits<double>::infinity() :
+                                first_strain(body, families.material[i], families.horizon[i]);
+      }};
+    if (body.parameters.material.has_criterion())
+      limits.utilisation = [&families, of_material = utilisation_of_strengths(body)](
+                             const LocalIndex i, const dealii::SymmetricTensor<2, 3> &stress) {
+        return of_material(families.material[i], stress);
+      };
+    zoned->set_limits(limits);
   }
 
   template <int dim>

@@ -155,8 +155,15 @@ namespace perideal
   template <int dim>
   bool EquilibriumPath<dim>::extend_bonds()
   {
+    const unsigned int version = bonds.version();
     if (!bonds.extend_bonds(displacement))
       return false;
+    // Bonds that were told where to begin bore the last equilibrium as they are.
+    if (bonds.version() == version)
+      {
+        compute_forces();
+        return true;
+      }
     // The last equilibrium is seen with the bonds and cells that the force has become one of: no energy is
     // dissipated by that.
     const NodalVector                   now = displacement;

@@ -93,12 +93,14 @@ namespace perideal
 
     void declare(dealii::ParameterHandler &prm);
 
-    /// Whether bonds are those of linear statics, move or follow load steps, or break.
+    /// Whether bonds are those of linear statics, move or follow load steps, break, or begin to soften by
+    /// stress.
     enum class Use
     {
       statics,
       motion,
-      failure
+      failure,
+      stress_onset
     };
 
     /// Puts what serves the model best in the place of "automatic".
@@ -115,6 +117,9 @@ namespace perideal
     /// parameters: of the model's form for this, with the influence function of that form where the
     /// consistent form has its own.
     ModelParameters in_zone() const;
+
+    /// Whether cracks of softening bonds grow in the consistent form of the model, which has it then.
+    bool grows_by_softening() const { return !model->default_forms.in_zone.empty(); }
 
     /// The name of the chosen form; empty where the model has one only.
     std::string form_name() const { return has_forms() ? form : std::string(); }

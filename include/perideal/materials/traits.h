@@ -111,7 +111,8 @@ namespace perideal
     {
       std::string statics, motion, failure;
       /// The form of the bonds that the consistent form turns into where cracks may grow; empty: it has none.
-      std::string in_zone = {};
+      /// The model whose form that is; empty: this one.
+      std::string in_zone = {}, in_zone_of = {};
     };
     DefaultForms default_forms;
 

@@ -35,7 +35,8 @@ namespace perideal
     double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
 
     /// The stretch at which a bond begins to soften: that with which families bear the tensile strength, of
-    /// the weaker material; or a share of the stretch at which it would break at once.
+    /// the weaker material; or a share of the stretch at which it would break at once; or infinity, where a
+    /// criterion says it by the stress of nodes.
     double first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
 
     /// What cracks take of the fracture energy, by direction.

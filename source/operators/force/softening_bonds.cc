@@ -22,9 +22,34 @@ namespace perideal
         const double square  = static_cast<double>(limits[slot]) * limits[slot];
         brittle_square[slot] = static_cast<float>(square);
         // Bonds that never break do not soften either.
-        if (square <= std::numeric_limits<float>::max() && law.is_stable(first[slot], square))
+        if (!(square <= std::numeric_limits<float>::max()))
+          continue;
+        if (first[slot] >= never)
+          {
+            if (waiting.empty())
+              waiting = is_started = std::vector<bool>(limits.size(), false);
+            waiting[slot] = true;
+          }
+        if (waits(slot) || law.is_stable(first[slot], square))
           this->first[slot] = limits[slot] = first[slot];
       }
+  }
+
+  void SofteningBonds::start(const BondIndex slot, const double stretch, float &limit)
+  {
+    Assert(waits(slot), dealii::ExcInternalError());
+    waiting[slot]    = false;
+    is_started[slot] = true;
+    first[slot] = limit = static_cast<float>(stretch);
+  }
+
+  void SofteningBonds::restore(const BondIndex slot, const double share, const double first_stretch)
+  {
+    shares[slot] = static_cast<float>(share);
+    if (!waits(slot))
+      return;
+    float limit = 0;
+    start(slot, first_stretch, limit);
   }
 
   void SofteningBonds::begin(std::vector<float> &limits)
@@ -78,6 +103,6 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return memory_consumption(shares) + memory_consumption(first) + memory_consumption(brittle_square) +
-           now.capacity() * sizeof(Trial);
+           memory_consumption(waiting) + memory_consumption(is_started) + now.capacity() * sizeof(Trial);
   }
 } // namespace perideal

@@ -100,6 +100,8 @@ namespace perideal
     limits.set(*whole->families, *bonds);
     for (LocalIndex i = 0; i < limit.size(); ++i)
       limit[i] = limits.first_strain(i);
+    strength.utilisation = limits.utilisation;
+    strength.is_reached.assign(limit.size(), false);
     scale();
   }
 
@@ -198,10 +200,47 @@ namespace perideal
   template <int dim>
   bool ZonedForce<dim>::extend_bonds(const NodalVector &displacement)
   {
+    return grow_ahead(displacement) || start_softening();
+  }
+
+  template <int dim>
+  bool ZonedForce<dim>::grow_ahead(const NodalVector &displacement)
+  {
     const auto near = [&](const double share) { return nodes_near_breaking(*cells, zone, limit, share); };
     const unsigned int comes_near = near(near_to_breaking).empty() ? 0 : 1;
     return dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0 &&
            grow(near(alike * near_to_breaking), displacement);
+  }
+
+  template <int dim>
+  bool ZonedForce<dim>::start_softening()
+  {
+    if (!strength.utilisation || !zone.is_there())
+      return false;
+    // Cells do not know what broke, and strain more beside it: they tell whom to look at.
+    constexpr double share_of_cells = 0.9;
+    const auto       of_cells_there = cells->gradients();
+    const auto       stress         = [&](const LocalIndex i, const dealii::Tensor<2, dim> &gradient) {
+      return cells->law(i).cauchy_stress(gradient);
+    };
+    std::vector<LocalIndex> nodes;
+    for (LocalIndex i = 0; i < of_cells_there.size(); ++i)
+      if (zone.share()[i] > 0 && !strength.is_reached[i] &&
+          strength.utilisation(i, stress(i, of_cells_there[i])) >= share_of_cells * near_to_strength)
+        nodes.push_back(i);
+    const unsigned int any = nodes.empty() ? 0 : 1;
+    if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
+      return false;
+    const auto                                 gradients = gradients_of_bonds(nodes);
+    std::vector<std::pair<LocalIndex, double>> reached;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (const double share = strength.utilisation(nodes[k], stress(nodes[k], gradients[k]));
+          share >= near_to_strength)
+        {
+          reached.emplace_back(nodes[k], share);
+          strength.is_reached[nodes[k]] = true;
+        }
+    return dynamic_cast<BreakingBonds<dim> &>(*bonds).start_softening(reached, strength.borne);
   }
 
   template <int dim>
@@ -210,9 +249,13 @@ namespace perideal
     change.is_there = false;
     cells->compute(of_cells, displacement);
     if (judges)
-      extend_bonds(displacement);
+      grow_ahead(displacement);
     bonds->compute(force, displacement);
     force += of_cells;
+    if (strength.utilisation && (judges || strength.borne.size() == 0))
+      strength.borne = displacement_of_bonds();
+    if (judges)
+      start_softening();
   }
 
   template <int dim>
@@ -223,13 +266,26 @@ namespace perideal
     for (LocalIndex i = 0; i < result.size(); ++i)
       if (zone.share()[i] > 0)
         nodes.push_back(i);
-    NodalVector displacement(families->make_partitioner(dim));
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        displacement.local_element(dim * i + d) = bonds->positions()[i].value[d] - families->position[i][d];
-    const auto in_zone = intact_gradients(*families, *bonds, displacement, nodes);
+    const auto in_zone = gradients_of_bonds(nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k)
       result[nodes[k]] = in_zone[k];
+    return result;
+  }
+
+  template <int dim>
+  std::vector<dealii::Tensor<2, dim>>
+  ZonedForce<dim>::gradients_of_bonds(const std::vector<LocalIndex> &nodes) const
+  {
+    return intact_gradients(*families, *bonds, displacement_of_bonds(), nodes);
+  }
+
+  template <int dim>
+  NodalVector ZonedForce<dim>::displacement_of_bonds() const
+  {
+    NodalVector result(families->make_partitioner(dim));
+    for (LocalIndex i = 0; i < families->n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        result.local_element(dim * i + d) = bonds->positions()[i].value[d] - families->position[i][d];
     return result;
   }
 

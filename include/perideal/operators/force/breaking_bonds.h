@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace perideal
@@ -40,12 +41,13 @@ namespace perideal
     double              share_computed() const override { return regions.share_awake(); }
 
     /// What lasts of bonds: those of this rank that broke, in this order (those that the partition cuts are
-    /// on both ranks), and those that softened, with the stretch beyond which each goes on to do so and the
-    /// share left.
+    /// on both ranks), and those that softened or were started, with the stretch beyond which each goes on to
+    /// soften, the share left, and the stretch at which it began.
     struct Memory
     {
-      std::vector<BondEnds> broken, softened;
-      std::vector<double>   stretch_and_share;
+      static constexpr unsigned int n_values = 3;
+      std::vector<BondEnds>         broken, softened;
+      std::vector<double>           of_softened;
     };
     Memory memory() const;
     /// Breaks and softens bonds as they did before. Those that are no bonds here are left out.
@@ -56,6 +58,17 @@ namespace perideal
 
     /// Takes back what softened without being judged.
     void take_back() { softening.begin(critical_stretch); }
+
+    /// Starts the softening of the waiting bonds of owned nodes of which a stress says so, as they are at the
+    /// last compute(): at the present stretch over the share that the stress takes of the strength, so that
+    /// stresses which grow in proportion start all bonds when they reach it. Bonds that are stretched less
+    /// than half as much as the most stretched one of the node start there: they are inclined to the crack,
+    /// and would take much longer openings than the others. Returns whether a bond started. Collective.
+    /// @param utilisation of the strength, by node [-]
+    /// @param borne displacement of the last state that was judged, by local component, which all waiting
+    /// bonds bore: none starts below that [m]
+    bool start_softening(const std::vector<std::pair<LocalIndex, double>> &utilisation,
+                         const NodalVector                                &borne);
 
   protected:
     /// @param has_sums whether forces need sums over families first
@@ -100,6 +113,8 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
+    /// Of a bond with this vector from end to end [-].
+    double stretch_of(const BondIndex slot, const dealii::Tensor<1, dim> &along) const;
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
     void measure_rest_lengths();

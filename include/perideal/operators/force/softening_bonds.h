@@ -20,21 +20,32 @@ namespace perideal
    *
    * Where bonds are not judged, a change lasts until the next begin() only: each state is seen as if the body
    * came to it from the last one that was judged.
+   *
+   * Bonds whose first stretch is never wait: they soften no earlier than start() says.
    */
   class SofteningBonds
   {
   public:
+    /// A stretch that no bond reaches, small enough for its product with a length to be finite [-].
+    static constexpr float never = 1e30f;
+
     /// Bonds break at once.
     SofteningBonds() = default;
 
     /// @param limits critical stretches of bonds that break at once, which become those where they begin to
     /// soften
-    /// @param first where bonds are to begin; where a bond could not open stably, it breaks at once
+    /// @param first where bonds are to begin, or never; where a bond could not open stably, it breaks at once
     SofteningBonds(const SofteningLaw &law, std::vector<float> &limits, const std::vector<float> &first);
 
     bool softens() const { return law.softens(); }
 
     void judge(const bool for_good) { judges = for_good; }
+
+    /// Whether a bond waits to be started.
+    bool waits(const BondIndex slot) const { return !waiting.empty() && waiting[slot]; }
+    /// Lets a waiting bond begin to soften at this stretch; beyond the one of a stable opening it breaks
+    /// there.
+    void start(const BondIndex slot, const double stretch, float &limit);
 
     /// Before the bonds of a state are looked at.
     void begin(std::vector<float> &limits);
@@ -75,15 +86,26 @@ namespace perideal
       return result;
     }
 
-    /// Sets what an earlier run left of a bond.
-    void restore(const BondIndex slot, const double share) { shares[slot] = static_cast<float>(share); }
+    /// Whether a bond is not what it was at the beginning: it has lost some of its weights, or was started.
+    bool has_changed(const BondIndex slot) const
+    {
+      return softens() && shares[slot] > 0 && (shares[slot] < 1 || was_started(slot));
+    }
+    double first_stretch(const BondIndex slot) const { return first[slot]; }
+
+    /// Sets what an earlier run left of a bond, which began to soften at a first stretch.
+    void restore(const BondIndex slot, const double share, const double first_stretch);
 
     std::size_t memory_consumption() const;
 
   private:
+    bool was_started(const BondIndex slot) const { return !waiting.empty() && is_started[slot]; }
+
     SofteningLaw law;
     /// g, s_0 and s_d^2 of the law, by slot; empty where bonds break at once.
     std::vector<float> shares, first, brittle_square;
+    /// Which bonds wait, and which did until they were started, by slot; empty where none ever waits.
+    std::vector<bool> waiting, is_started;
     /// Whether changes are for good, and were so since begin().
     bool judges = true, judged = true;
     /// A bond that softened since begin(), with what it was before.
