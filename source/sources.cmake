@@ -203,6 +203,7 @@ set(perideal_sources
   operators/weights/tensor_weights.cc
 
   operators/force/breaking_bonds.cc
+  operators/force/breaking_bonds_start.cc
   operators/force/contact_force.cc
   operators/force/contact_parameters.cc
   operators/force/consistent_force.cc

@@ -155,7 +155,10 @@ namespace perideal
   template <int dim>
   bool EquilibriumPath<dim>::extend_bonds()
   {
-    const unsigned int version = bonds.version();
+    // What softened for good on the way from the last equilibrium counts as dissipated, not as switched.
+    const bool         softened = breaks.in_segment;
+    const double       before   = softened ? look_at_last().strain : last.energy.strain;
+    const unsigned int version  = bonds.version();
     if (!bonds.extend_bonds(displacement))
       return false;
     // Bonds that were told where to begin bore the last equilibrium as they are.
@@ -166,21 +169,33 @@ namespace perideal
       }
     // The last equilibrium is seen with the bonds and cells that the force has become one of: no energy is
     // dissipated by that.
+    const auto   after    = look_at_last();
+    const double switched = before - after.strain;
+    last.energy.switched += switched;
+    last.energy.strain -= switched;
+    if (!softened)
+      {
+        last.support_force      = after.support_force;
+        last.face_support_force = after.face_support_force;
+      }
+    return true;
+  }
+
+  template <int dim>
+  typename EquilibriumPath<dim>::LastSeenNow EquilibriumPath<dim>::look_at_last()
+  {
     const NodalVector                   now = displacement;
     std::vector<dealii::Tensor<1, dim>> values_now;
     for (std::size_t e = 0; face_values != nullptr && e < face_values->entries().size(); ++e)
       values_now.push_back(face_values->entries()[e].value);
     restore();
     bonds.compute(force, displacement);
-    const double strain = bonds.strain_energy();
-    last.energy.switched += last.energy.strain - strain;
-    last.energy.strain = strain;
-    keep(last.external, force);
+    LastSeenNow result{bonds.strain_energy(), support_forces(last.external, force), bonds.support_forces()};
     displacement = now;
     if (face_values != nullptr)
       face_values->set_values(values_now);
     compute_forces();
-    return true;
+    return result;
   }
 
   template <int dim>
@@ -277,10 +292,19 @@ namespace perideal
   }
 
   template <int dim>
+  NodalVector EquilibriumPath<dim>::support_forces(const NodalVector &external,
+                                                   const NodalVector &internal) const
+  {
+    NodalVector result(internal);
+    for (std::size_t k = 0; k < held.mask().size(); ++k)
+      result.local_element(k) = support_force(held, k, external, internal);
+    return result;
+  }
+
+  template <int dim>
   void EquilibriumPath<dim>::keep(const NodalVector &external, const NodalVector &internal)
   {
-    for (std::size_t k = 0; k < held.mask().size(); ++k)
-      last.support_force.local_element(k) = support_force(held, k, external, internal);
+    last.support_force  = support_forces(external, internal);
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
       {

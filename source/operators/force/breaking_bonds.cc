@@ -13,9 +13,6 @@ namespace perideal
   namespace
   {
     constexpr float never = SofteningBonds::never;
-
-    /// Share of the largest stretch of a node that its bonds have at least when they begin to soften [-].
-    constexpr double least_of_largest = 0.5;
   } // namespace
 
   template <int dim>
@@ -163,66 +160,6 @@ namespace perideal
     this->lost.push_back({slot, near, bonds.neighbour[slot]});
     remove(slot);
     volumes.add(volumes.broken, near, bonds.neighbour[slot]);
-  }
-
-  template <int dim>
-  double BreakingBonds<dim>::stretch_of(const BondIndex slot, const dealii::Tensor<1, dim> &along) const
-  {
-    return along.norm() / rest_length[slot] - 1.;
-  }
-
-  template <int dim>
-  bool BreakingBonds<dim>::start_softening(const std::vector<std::pair<LocalIndex, double>> &utilisation,
-                                           const NodalVector                                &borne)
-  {
-    // By local node the share of the strength, and the least stretch at which a bond begins; a rank tells
-    // the others of its nodes, as bonds that the partition cuts stand on both.
-    constexpr unsigned int n_values = 2;
-    NodalVector            of_nodes(families->make_partitioner(n_values));
-    for (const auto &[i, share] : utilisation)
-      of_nodes.local_element(n_values * i) = share;
-    const auto visit_waiting = [this](const auto &visit) {
-      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-          if (bonds.neighbour[slot] != i && softening.waits(slot) && carries_force(slot))
-            visit(i, bonds.neighbour[slot], slot);
-    };
-    const auto present = [this](const LocalIndex i, const LocalIndex j) {
-      dealii::Tensor<1, dim> result;
-      for (int d = 0; d < dim; ++d)
-        result[d] = position[j].value[d] - position[i].value[d];
-      return result;
-    };
-    const auto earlier = [&](const LocalIndex i, const LocalIndex j) {
-      dealii::Tensor<1, dim> result = families->position[j] - families->position[i];
-      for (int d = 0; d < dim; ++d)
-        result[d] += borne.local_element(dim * j + d) - borne.local_element(dim * i + d);
-      return result;
-    };
-    visit_waiting([&](const LocalIndex i, const LocalIndex j, const BondIndex slot) {
-      for (const LocalIndex end : {i, j})
-        if (end < families->n_owned() && of_nodes.local_element(n_values * end) > 0)
-          {
-            double &least = of_nodes.local_element(n_values * end + 1);
-            least         = std::max(least, least_of_largest * stretch_of(slot, present(i, j)));
-          }
-    });
-    of_nodes.update_ghost_values();
-    unsigned int started = 0;
-    visit_waiting([&](const LocalIndex i, const LocalIndex j, const BondIndex slot) {
-      double first = never;
-      for (const LocalIndex end : {i, j})
-        if (const double share = of_nodes.local_element(n_values * end),
-            least              = of_nodes.local_element(n_values * end + 1);
-            share > 0 && least > 0)
-          first = std::min(first, std::max(least, stretch_of(slot, present(i, j))) / share);
-      if (first < never)
-        {
-          softening.start(slot, std::max(first, stretch_of(slot, earlier(i, j))), critical_stretch[slot]);
-          started = 1;
-        }
-    });
-    return dealii::Utilities::MPI::max(started, families->communicator) > 0;
   }
 
   template <int dim>

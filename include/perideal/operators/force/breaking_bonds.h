@@ -59,11 +59,12 @@ namespace perideal
     /// Takes back what softened without being judged.
     void take_back() { softening.begin(critical_stretch); }
 
-    /// Starts the softening of the waiting bonds of owned nodes of which a stress says so, as they are at the
-    /// last compute(): at the present stretch over the share that the stress takes of the strength, so that
-    /// stresses which grow in proportion start all bonds when they reach it. Bonds that are stretched less
-    /// than half as much as the most stretched one of the node start there: they are inclined to the crack,
-    /// and would take much longer openings than the others. Returns whether a bond started. Collective.
+    /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes of which a
+    /// stress says so, or pass through them: a crack there crosses them. They begin at their stretch at the
+    /// last compute() over the share that the stress takes of the strength, so that stresses which grow in
+    /// proportion start all bonds when they reach it. Bonds that are stretched less than half as much as the
+    /// most stretched one of the node start there: they are inclined to the crack, and would take much longer
+    /// openings than the others. Returns whether a bond started. Collective.
     /// @param utilisation of the strength, by node [-]
     /// @param borne displacement of the last state that was judged, by local component, which all waiting
     /// bonds bore: none starts below that [m]
