@@ -46,8 +46,9 @@ namespace perideal
     return laws;
   }
 
-  SofteningLaw::SofteningLaw(const Softening &softening)
+  SofteningLaw::SofteningLaw(const Softening &softening, const bool waits)
     : curve(softening->curve)
+    , is_told(waits)
   {
     for (std::size_t k = 1; k < curve.size(); ++k)
       least =

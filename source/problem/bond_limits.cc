@@ -25,21 +25,19 @@ namespace perideal
       const ModelParameters &model = body.parameters.model;
       return has_fracture_zone(body.parameters) ? model.in_zone() : model;
     }
-
-    /// The strain along a uniaxial stress of the tensile strength, and its contraction over that [-]; {0, 0}
-    /// of materials without one.
-    template <int dim>
-    std::pair<double, double> strain_of_strength(const Body<dim> &body, const dealii::types::material_id id)
-    {
-      const double strength = body.properties_of(id).tensile_strength;
-      if (!(strength > 0))
-        return {0., 0.};
-      const ElasticConstants solid   = body.solids.at(id).isotropic();
-      const double           nu      = solid.poisson_ratio;
-      const bool             is_thin = solid.assumption != PlaneAssumption::plane_strain;
-      return {strength / solid.young_modulus * (is_thin ? 1. : 1. - nu * nu), is_thin ? nu : nu / (1. - nu)};
-    }
   } // namespace
+
+  template <int dim>
+  std::pair<double, double> strain_of_strength(const Body<dim> &body, const dealii::types::material_id id)
+  {
+    const double strength = body.properties_of(id).tensile_strength;
+    if (!(strength > 0))
+      return {0., 0.};
+    const ElasticConstants solid   = body.solids.at(id).isotropic();
+    const double           nu      = solid.poisson_ratio;
+    const bool             is_thin = solid.assumption != PlaneAssumption::plane_strain;
+    return {strength / solid.young_modulus * (is_thin ? 1. : 1. - nu * nu), is_thin ? nu : nu / (1. - nu)};
+  }
 
   template <int dim>
   double critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon)
@@ -119,8 +117,6 @@ namespace perideal
   template <int dim>
   double BondLimits<dim>::first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
   {
-    if (body.parameters.material.has_criterion())
-      return never;
     const auto of_end = [&](const LocalIndex end, const std::vector<double> &of_family) {
       if (!of_family.empty() && of_family[slot] > 0)
         return of_family[slot];
@@ -142,6 +138,7 @@ namespace perideal
                                          never;
   }
 
+  PERIDEAL_INSTANTIATE(strain_of_strength)
   PERIDEAL_INSTANTIATE(critical_stretch)
   PERIDEAL_INSTANTIATE(first_strain)
   PERIDEAL_INSTANTIATE_CLASS(BondLimits)

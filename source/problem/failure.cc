@@ -102,7 +102,7 @@ namespace perideal
         [&](const LocalIndex i, const LocalIndex j) {
           return can_both(i, j) ? limits(i, j, bonds.find(i, j)) : std::numeric_limits<double>::infinity();
         },
-        SofteningLaw(body.parameters.material.softening),
+        SofteningLaw(body.parameters.material.softening, body.parameters.material.has_criterion()),
         [&](const LocalIndex i, const LocalIndex j) { return limits.first(i, j, bonds.find(i, j)); });
     };
     auto *zoned = dynamic_cast<ZonedForce<dim> *>(&force);
@@ -117,10 +117,15 @@ namespace perideal
                                 first_strain(body, families.material[i], families.horizon[i]);
       }};
     if (body.parameters.material.has_criterion())
-      limits.utilisation = [&families, of_material = utilisation_of_strengths(body)](
-                             const LocalIndex i, const dealii::SymmetricTensor<2, 3> &stress) {
-        return of_material(families.material[i], stress);
-      };
+      {
+        limits.uniaxial_strain = [&](const LocalIndex i) {
+          return strain_of_strength(body, families.material[i]).first;
+        };
+        limits.utilisation = [&families, of_material = utilisation_of_strengths(body)](
+                               const LocalIndex i, const dealii::SymmetricTensor<2, 3> &stress) {
+          return of_material(families.material[i], stress);
+        };
+      }
     zoned->set_limits(limits);
   }
 

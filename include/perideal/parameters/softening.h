@@ -41,10 +41,13 @@ namespace perideal
   class SofteningLaw
   {
   public:
-    explicit SofteningLaw(const Softening &softening = "none");
+    /// @param waits whether bonds begin to soften no earlier than they are told to
+    explicit SofteningLaw(const Softening &softening = "none", const bool waits = false);
 
     /// False where bonds break at once.
     bool softens() const { return !curve.empty(); }
+
+    bool waits() const { return is_told; }
 
     /// Whether bonds with these stretches soften: a law softens, and they would not snap back.
     bool is_stable(const double first, const double brittle_square) const
@@ -79,6 +82,7 @@ namespace perideal
     Point look_at(const double stretch, const double first, const double brittle_square) const;
 
     std::vector<std::pair<double, double>> curve;
+    bool                                   is_told = false;
     /// The least (s_d/s_0)^2 with which stretches grow as bonds open [-].
     double least = 1.;
   };

@@ -9,6 +9,11 @@
 
 namespace perideal
 {
+  /// Returns the strain along a uniaxial stress of the tensile strength, and its contraction over that [-];
+  /// {0, 0} of materials without one.
+  template <int dim>
+  std::pair<double, double> strain_of_strength(const Body<dim> &body, const dealii::types::material_id id);
+
   /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
   /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
   template <int dim>
@@ -35,8 +40,7 @@ namespace perideal
     double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
 
     /// The stretch at which a bond begins to soften: that with which families bear the tensile strength, of
-    /// the weaker material; or a share of the stretch at which it would break at once; or infinity, where a
-    /// criterion says it by the stress of nodes.
+    /// the weaker material; or a share of the stretch at which it would break at once.
     double first(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
 
     /// What cracks take of the fracture energy, by direction.

@@ -16,6 +16,8 @@ namespace perideal
     , shares(limits.size(), 1.f)
     , first(limits)
     , brittle_square(limits)
+    , waiting(law.waits() ? limits.size() : 0, false)
+    , is_started(waiting)
   {
     for (BondIndex slot = 0; slot < limits.size(); ++slot)
       {
@@ -24,13 +26,13 @@ namespace perideal
         // Bonds that never break do not soften either.
         if (!(square <= std::numeric_limits<float>::max()))
           continue;
-        if (first[slot] >= never)
+        if (law.waits())
           {
-            if (waiting.empty())
-              waiting = is_started = std::vector<bool>(limits.size(), false);
-            waiting[slot] = true;
+            waiting[slot]     = true;
+            this->first[slot] = first[slot];
+            limits[slot]      = never;
           }
-        if (waits(slot) || law.is_stable(first[slot], square))
+        else if (law.is_stable(first[slot], square))
           this->first[slot] = limits[slot] = first[slot];
       }
   }

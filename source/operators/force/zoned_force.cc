@@ -100,7 +100,8 @@ namespace perideal
     limits.set(*whole->families, *bonds);
     for (LocalIndex i = 0; i < limit.size(); ++i)
       limit[i] = limits.first_strain(i);
-    strength.utilisation = limits.utilisation;
+    strength.utilisation     = limits.utilisation;
+    strength.uniaxial_strain = limits.uniaxial_strain;
     strength.is_reached.assign(limit.size(), false);
     scale();
   }
@@ -232,15 +233,20 @@ namespace perideal
     if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
       return false;
     const auto                                 gradients = gradients_of_bonds(nodes);
-    std::vector<std::pair<LocalIndex, double>> reached;
+    std::vector<std::pair<LocalIndex, double>> onset;
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (const double share = strength.utilisation(nodes[k], stress(nodes[k], gradients[k]));
-          share >= near_to_strength)
-        {
-          reached.emplace_back(nodes[k], share);
-          strength.is_reached[nodes[k]] = true;
-        }
-    return dynamic_cast<BreakingBonds<dim> &>(*bonds).start_softening(reached, strength.borne);
+      {
+        const LocalIndex              i      = nodes[k];
+        const dealii::Tensor<2, dim> &g      = gradients[k];
+        const double                  share  = strength.utilisation(i, stress(i, g));
+        const double                  strain = eigenvalues(symmetrize(g + 0.5 * transpose(g) * g))[0];
+        // What is pressed together only does not open.
+        if (share < near_to_strength || !(strain > 0))
+          continue;
+        strength.is_reached[i] = true;
+        onset.emplace_back(i, strain / (share * strength.uniaxial_strain(i)));
+      }
+    return dynamic_cast<BreakingBonds<dim> &>(*bonds).start_softening(onset, strength.borne);
   }
 
   template <int dim>

@@ -59,17 +59,13 @@ namespace perideal
     /// Takes back what softened without being judged.
     void take_back() { softening.begin(critical_stretch); }
 
-    /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes of which a
-    /// stress says so, or pass through them: a crack there crosses them. They begin at their stretch at the
-    /// last compute() over the share that the stress takes of the strength, so that stresses which grow in
-    /// proportion start all bonds when they reach it. Bonds that are stretched less than half as much as the
-    /// most stretched one of the node start there: they are inclined to the crack, and would take much longer
-    /// openings than the others. Returns whether a bond started. Collective.
-    /// @param utilisation of the strength, by node [-]
+    /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes, or pass
+    /// through them: a crack there crosses them. Returns whether a bond started. Collective.
+    /// @param onset by node, the largest strain with which the strength is reached, over that of a uniaxial
+    /// stress, by which the first stretches of bonds are multiplied [-]
     /// @param borne displacement of the last state that was judged, by local component, which all waiting
     /// bonds bore: none starts below that [m]
-    bool start_softening(const std::vector<std::pair<LocalIndex, double>> &utilisation,
-                         const NodalVector                                &borne);
+    bool start_softening(const std::vector<std::pair<LocalIndex, double>> &onset, const NodalVector &borne);
 
   protected:
     /// @param has_sums whether forces need sums over families first
@@ -114,8 +110,6 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
-    /// Of a bond with this vector from end to end [-].
-    double stretch_of(const BondIndex slot, const dealii::Tensor<1, dim> &along) const;
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
     void measure_rest_lengths();

@@ -21,7 +21,7 @@ namespace perideal
    * Where bonds are not judged, a change lasts until the next begin() only: each state is seen as if the body
    * came to it from the last one that was judged.
    *
-   * Bonds whose first stretch is never wait: they soften no earlier than start() says.
+   * Where the law waits, bonds soften no earlier than start() says.
    */
   class SofteningBonds
   {
@@ -34,7 +34,7 @@ namespace perideal
 
     /// @param limits critical stretches of bonds that break at once, which become those where they begin to
     /// soften
-    /// @param first where bonds are to begin, or never; where a bond could not open stably, it breaks at once
+    /// @param first where bonds are to begin; where a bond could not open stably, it breaks at once
     SofteningBonds(const SofteningLaw &law, std::vector<float> &limits, const std::vector<float> &first);
 
     bool softens() const { return law.softens(); }
@@ -43,8 +43,8 @@ namespace perideal
 
     /// Whether a bond waits to be started.
     bool waits(const BondIndex slot) const { return !waiting.empty() && waiting[slot]; }
-    /// Lets a waiting bond begin to soften at this stretch; beyond the one of a stable opening it breaks
-    /// there.
+    /// Lets a waiting bond begin to soften at a stretch; where it could not open stably from there, it
+    /// breaks.
     void start(const BondIndex slot, const double stretch, float &limit);
 
     /// Before the bonds of a state are looked at.
@@ -91,6 +91,7 @@ namespace perideal
     {
       return softens() && shares[slot] > 0 && (shares[slot] < 1 || was_started(slot));
     }
+    /// s_0, of bonds that wait as if a uniaxial stress was to start them.
     double first_stretch(const BondIndex slot) const { return first[slot]; }
 
     /// Sets what an earlier run left of a bond, which began to soften at a first stretch.

@@ -28,8 +28,10 @@ namespace perideal
    * change is booked.
    *
    * Where a criterion says when bonds begin to soften (Limits::utilisation), they wait for it: once the
-   * stress of a node comes to it, all that are stretched there begin (BreakingBonds::start_softening). The
-   * stress is that of the bonds that are whole. Nodes are looked at when the zone is.
+   * stress of a node comes near to it, the bonds through its cell are told the stretch at which they begin
+   * (BreakingBonds::start_softening): with the largest strain that proportional loading has when the strength
+   * is reached as with that of a uniaxial stress, for which they are calibrated. The stress is that of the
+   * bonds that are whole. Nodes are looked at when the zone is.
    *
    * Whole families are made on demand: of nodes with a chi, of their members, with which they share the bonds
    * whose stretches they decide on, and of some more, so that they need not be made at each growth; and where
@@ -44,9 +46,9 @@ namespace perideal
     /// Where one grows, nodes with so much of that make it grow too: of nodes that are equal, rounding does
     /// not choose one.
     static constexpr double alike = 0.98;
-    /// Share of their strength from which on the bonds of a node know when they begin: they do so within the
-    /// search for an equilibrium, and not after one in which the node bears more than its strength [-].
-    static constexpr double near_to_strength = 0.9;
+    /// Share of their strength from which on the bonds of a node know when they begin, which the first do at
+    /// .7 to .8 of it [-].
+    static constexpr double near_to_strength = 0.6;
 
     /// Returns the weights of the whole families of some nodes, which will change.
     using Weigh =
@@ -69,8 +71,9 @@ namespace perideal
       /// Strain of a local node at which bonds like its own begin to fail [-]; infinity: never.
       std::function<double(const LocalIndex)> first_strain;
       /// Share of its strength that Cauchy's stress [Pa] takes of an owned node whose bonds wait for that
-      /// [-]; null: none waits.
-      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation = {};
+      /// [-]; null: none waits. And the strain along the uniaxial stress that takes all of it [-].
+      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation     = {};
+      std::function<double(const LocalIndex)>                                        uniaxial_strain = {};
     };
     /// Makes bonds breakable from now on. Collective.
     void set_limits(const Limits &limits);
@@ -162,6 +165,7 @@ namespace perideal
     struct
     {
       std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation;
+      std::function<double(const LocalIndex)>                                        uniaxial_strain;
       std::vector<bool>                                                              is_reached;
       NodalVector                                                                    borne;
     } strength;
