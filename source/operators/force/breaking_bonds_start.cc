@@ -15,12 +15,13 @@ namespace perideal
 {
   namespace
   {
-    /// A cell whose stress comes to its strength, with its onset (BreakingBonds::start_softening).
+    /// A cell whose stress comes to its strength.
     template <int dim>
     struct FailingCell
     {
       dealii::Point<dim> middle;
-      double             spacing, onset;
+      double             spacing = 0;
+      SofteningOnset     onset;
 
       /// Whether a bond passes through the ball in it.
       bool is_passed(const dealii::Point<dim> &from, const dealii::Tensor<1, dim> &along) const
@@ -38,12 +39,11 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  bool BreakingBonds<dim>::start_softening(const std::vector<std::pair<LocalIndex, double>> &onset,
-                                           const NodalVector                                &borne)
+  bool BreakingBonds<dim>::start_softening(const std::vector<SofteningOnset> &onset, const NodalVector &borne)
   {
     std::vector<FailingCell<dim>> own;
-    for (const auto &[i, factor] : onset)
-      own.push_back({families->position[i], families->spacing[i], factor});
+    for (const SofteningOnset &of_node : onset)
+      own.push_back({families->position[of_node.node], families->spacing[of_node.node], of_node});
     // The least stretch that a cell asks for; bonds of one rank pass through cells of another.
     std::map<BondIndex, double> begins;
     const auto                  look_at = [&](const FailingCell<dim> &cell, const LocalIndex i) {
@@ -56,7 +56,7 @@ namespace perideal
           if (!cell.is_passed(families->position[i], along))
             continue;
           double &first = begins.emplace(slot, SofteningBonds::never).first->second;
-          first         = std::min(first, cell.onset * softening.first_stretch(slot));
+          first = std::min(first, cell.onset.first_stretch(softening.first_stretch(slot)));
           for (int d = 0; d < dim; ++d)
             along[d] += borne.local_element(dim * j + d) - borne.local_element(dim * i + d);
           first = std::max(first, along.norm() / rest_length[slot] - 1.);
@@ -73,8 +73,7 @@ namespace perideal
   }
 
 #define PERIDEAL_INSTANTIATE_START(dim)                                                                      \
-  template bool BreakingBonds<dim>::start_softening(const std::vector<std::pair<LocalIndex, double>> &,      \
-                                                    const NodalVector &);
+  template bool BreakingBonds<dim>::start_softening(const std::vector<SofteningOnset> &, const NodalVector &);
   PERIDEAL_INSTANTIATE_START(2)
   PERIDEAL_INSTANTIATE_START(3)
 #undef PERIDEAL_INSTANTIATE_START

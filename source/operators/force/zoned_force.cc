@@ -100,8 +100,8 @@ namespace perideal
     limits.set(*whole->families, *bonds);
     for (LocalIndex i = 0; i < limit.size(); ++i)
       limit[i] = limits.first_strain(i);
-    strength.utilisation     = limits.utilisation;
-    strength.uniaxial_strain = limits.uniaxial_strain;
+    strength.utilisation = limits.utilisation;
+    strength.uniaxial    = limits.uniaxial;
     strength.is_reached.assign(limit.size(), false);
     scale();
   }
@@ -232,19 +232,22 @@ namespace perideal
     const unsigned int any = nodes.empty() ? 0 : 1;
     if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
       return false;
-    const auto                                 gradients = gradients_of_bonds(nodes);
-    std::vector<std::pair<LocalIndex, double>> onset;
+    const auto                  gradients = gradients_of_bonds(nodes);
+    std::vector<SofteningOnset> onset;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       {
         const LocalIndex              i      = nodes[k];
         const dealii::Tensor<2, dim> &g      = gradients[k];
         const double                  share  = strength.utilisation(i, stress(i, g));
-        const double                  strain = eigenvalues(symmetrize(g + 0.5 * transpose(g) * g))[0];
+        const auto                    strain = symmetrize(g + 0.5 * transpose(g) * g);
+        const double                  most   = eigenvalues(strain)[0];
         // What is pressed together only does not open.
-        if (share < near_to_strength || !(strain > 0))
+        if (share < near_to_strength || !(most > 0))
           continue;
-        strength.is_reached[i] = true;
-        onset.emplace_back(i, strain / (share * strength.uniaxial_strain(i)));
+        strength.is_reached[i]      = true;
+        const double across         = (trace(strain) - most) / (dim - 1.);
+        const auto [along, lateral] = strength.uniaxial(i);
+        onset.push_back({i, most / share, -across / most, along, lateral});
       }
     return dynamic_cast<BreakingBonds<dim> &>(*bonds).start_softening(onset, strength.borne);
   }

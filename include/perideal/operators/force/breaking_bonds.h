@@ -6,12 +6,12 @@
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/force/lost_volumes.h>
 #include <perideal/operators/force/rest_regions.h>
+#include <perideal/operators/force/softening_onset.h>
 
 #include <deal.II/base/aligned_vector.h>
 
 #include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace perideal
@@ -60,12 +60,10 @@ namespace perideal
     void take_back() { softening.begin(critical_stretch); }
 
     /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes, or pass
-    /// through them: a crack there crosses them. Returns whether a bond started. Collective.
-    /// @param onset by node, the largest strain with which the strength is reached, over that of a uniaxial
-    /// stress, by which the first stretches of bonds are multiplied [-]
+    /// through    /// them: a crack there crosses them. Returns whether a bond started. Collective.
     /// @param borne displacement of the last state that was judged, by local component, which all waiting
     /// bonds bore: none starts below that [m]
-    bool start_softening(const std::vector<std::pair<LocalIndex, double>> &onset, const NodalVector &borne);
+    bool start_softening(const std::vector<SofteningOnset> &onset, const NodalVector &borne);
 
   protected:
     /// @param has_sums whether forces need sums over families first

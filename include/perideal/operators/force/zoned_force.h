@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace perideal
@@ -29,8 +30,7 @@ namespace perideal
    *
    * Where a criterion says when bonds begin to soften (Limits::utilisation), they wait for it: once the
    * stress of a node comes near to it, the bonds through its cell are told the stretch at which they begin
-   * (BreakingBonds::start_softening): with the largest strain that proportional loading has when the strength
-   * is reached as with that of a uniaxial stress, for which they are calibrated. The stress is that of the
+   * (SofteningOnset). The stress is that of the
    * bonds that are whole. Nodes are looked at when the zone is.
    *
    * Whole families are made on demand: of nodes with a chi, of their members, with which they share the bonds
@@ -71,9 +71,10 @@ namespace perideal
       /// Strain of a local node at which bonds like its own begin to fail [-]; infinity: never.
       std::function<double(const LocalIndex)> first_strain;
       /// Share of its strength that Cauchy's stress [Pa] takes of an owned node whose bonds wait for that
-      /// [-]; null: none waits. And the strain along the uniaxial stress that takes all of it [-].
-      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation     = {};
-      std::function<double(const LocalIndex)>                                        uniaxial_strain = {};
+      /// [-]; null: none waits. And the strain along the uniaxial stress that takes all of it, and the
+      /// contraction across over that [-].
+      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation = {};
+      std::function<std::pair<double, double>(const LocalIndex)>                     uniaxial    = {};
     };
     /// Makes bonds breakable from now on. Collective.
     void set_limits(const Limits &limits);
@@ -165,7 +166,7 @@ namespace perideal
     struct
     {
       std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation;
-      std::function<double(const LocalIndex)>                                        uniaxial_strain;
+      std::function<std::pair<double, double>(const LocalIndex)>                     uniaxial;
       std::vector<bool>                                                              is_reached;
       NodalVector                                                                    borne;
     } strength;
