@@ -62,10 +62,13 @@ namespace perideal
           first = std::max(first, along.norm() / rest_length[slot] - 1.);
         }
     };
+    // A bond may be longer than the horizon of the end that lists it.
+    const double longest =
+      families->horizon.empty() ? 0. : *std::max_element(families->horizon.begin(), families->horizon.end());
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(families->communicator, own))
       for (const FailingCell<dim> &cell : of_rank)
         for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-          if (families->position[i].distance(cell.middle) <= families->horizon[i] + cell.spacing)
+          if (families->position[i].distance(cell.middle) <= longest + cell.spacing)
             look_at(cell, i);
     for (const auto &[slot, first] : begins)
       softening.start(slot, first, critical_stretch[slot]);

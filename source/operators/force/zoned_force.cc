@@ -262,7 +262,11 @@ namespace perideal
     bonds->compute(force, displacement);
     force += of_cells;
     if (strength.utilisation && (judges || strength.borne.size() == 0))
-      strength.borne = displacement_of_bonds();
+      {
+        // A copy would leave out the ghosts.
+        NodalVector now = displacement_of_bonds();
+        strength.borne.swap(now);
+      }
     if (judges)
       start_softening();
   }

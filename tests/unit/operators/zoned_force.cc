@@ -8,19 +8,24 @@
 #include "moments.h"
 #include "testing.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace perideal;
 
 namespace
 {
+  /// Says which share of its strength a stress takes of a node.
+  using Utilisation = std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)>;
+
   /// A box of unit modulus in the consistent form, with bonds where it is strained most.
   template <int dim>
   struct ZonedBox
   {
-    explicit ZonedBox(const double begins,
-                      MPI_Comm     communicator = MPI_COMM_WORLD,
-                      const bool   all_at_once  = false)
+    explicit ZonedBox(const double       begins,
+                      MPI_Comm           communicator = MPI_COMM_WORLD,
+                      const bool         all_at_once  = false,
+                      const Utilisation &utilisation  = {})
       : mesh(make_mesh(communicator))
       , body(*mesh, 3.01)
       , solid(ElasticConstants{1., 0.3, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid})
@@ -47,12 +52,15 @@ namespace
         },
         std::vector<std::pair<dealii::Point<dim>, double>>(),
         all_at_once);
-      force->set_limits({[begins](const Families<dim> &, BondForce<dim> &made) {
+      const SofteningLaw law("linear", static_cast<bool>(utilisation));
+      force->set_limits({[begins, law](const Families<dim> &, BondForce<dim> &made) {
                            made.set_critical_stretch([begins](const auto, const auto) { return 3. * begins; },
-                                                     SofteningLaw("linear"),
+                                                     law,
                                                      [begins](const auto, const auto) { return begins; });
                          },
-                         [begins](const LocalIndex) { return begins; }});
+                         [begins](const LocalIndex) { return begins; },
+                         utilisation,
+                         [begins](const LocalIndex) { return std::make_pair(begins, 0.3); }});
       tangent = std::make_unique<ZonedTangent<dim>>(cells);
       force->initialize(value);
     }
@@ -211,8 +219,77 @@ namespace
     EXPECT_LT(demand.force->whole_families().nodes, n_nodes);
     EXPECT_GT(demand.force->whole_families().nodes, demand.force->fracture_zone().n_nodes());
   }
+  /// Utilisation by the largest principal stress of a box of unit modulus.
+  Utilisation largest_stress_over(const double strength)
+  {
+    return [strength](const LocalIndex, const dealii::SymmetricTensor<2, 3> &stress) {
+      return dealii::eigenvalues(stress)[0] / strength;
+    };
+  }
+
+  /// Bonds that wait for a stress stay whole beyond the stretch at which they would soften.
+  template <int dim>
+  void expect_bonds_to_wait()
+  {
+    ZonedBox<dim> never(0.01, MPI_COMM_WORLD, false, [](const auto, const auto &) { return 0.; });
+    ZonedBox<dim> by_stretch(0.01), by_stress(0.01, MPI_COMM_WORLD, false, largest_stress_over(0.01));
+    double        whole = 0, by_both = 0;
+    for (ZonedBox<dim> *box : {&never, &by_stretch, &by_stress})
+      for (const double strain : {0.004, 0.007, 0.015})
+        box->force->compute(box->value, box->pulled(strain, 0.));
+    const auto largest = [](const ZonedBox<dim> &box) {
+      const auto   damage = box.force->damage();
+      const double here   = damage.empty() ? 0. : *std::max_element(damage.begin(), damage.end());
+      return dealii::Utilities::MPI::max(here, MPI_COMM_WORLD);
+    };
+    EXPECT_EQ(largest(never), 0.);
+    whole   = largest(by_stretch);
+    by_both = largest(by_stress);
+    EXPECT_GT(whole, 0.2);
+    // Calibrated alike; at the middle the pull is held across, where a stretch begins as under a uniaxial one.
+    EXPECT_NEAR(by_both, whole, 0.5 * whole);
+  }
+
+  /// Which bonds a stress starts, and when, does not depend on how the body is divided among ranks.
+  template <int dim>
+  void expect_same_onset_on_ranks()
+  {
+    ZonedBox<dim> shared(0.01, MPI_COMM_WORLD, false, largest_stress_over(0.01));
+    ZonedBox<dim> alone(0.01, MPI_COMM_SELF, false, largest_stress_over(0.01));
+    for (ZonedBox<dim> *box : {&shared, &alone})
+      for (const double strain : {0.004, 0.007, 0.012, 0.02})
+        box->force->compute(box->value, box->pulled(strain, 1e-4));
+    const double energy = alone.force->strain_energy();
+    EXPECT_NEAR(shared.force->strain_energy(), energy, 1e-6 * energy);
+    const auto damage = shared.force->damage(), of_all = alone.force->damage();
+    double     most = 0;
+    for (LocalIndex i = 0; i < damage.size(); ++i)
+      for (LocalIndex j = 0; j < of_all.size(); ++j)
+        if (shared.body.families->position[i].distance(alone.body.nodes.position[j]) < 1e-9)
+          {
+            EXPECT_NEAR(damage[i], of_all[j], 1e-5);
+            most = std::max(most, damage[i]);
+          }
+    EXPECT_GT(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 0.2);
+  }
 } // namespace
 
+TEST(ZonedForce, BondsWaitForAStress2D)
+{
+  expect_bonds_to_wait<2>();
+}
+TEST(ZonedForce, BondsWaitForAStress3D)
+{
+  expect_bonds_to_wait<3>();
+}
+TEST(ZonedForce, SameOnsetOnAnyNumberOfRanks2D)
+{
+  expect_same_onset_on_ranks<2>();
+}
+TEST(ZonedForce, SameOnsetOnAnyNumberOfRanks3D)
+{
+  expect_same_onset_on_ranks<3>();
+}
 TEST(ZonedForce, FamiliesOnDemandDoWhatAllDo2D)
 {
   expect_families_on_demand_to_do<2>();
