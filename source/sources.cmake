@@ -218,6 +218,7 @@ set(perideal_sources
   operators/force/relative_damping.cc
   operators/force/rest_regions.cc
   operators/force/softening_bonds.cc
+  operators/force/stress_onset.cc
   operators/force/tensor_force.cc
   operators/force/zoned_force.cc
 

@@ -170,7 +170,16 @@ namespace perideal
                  scene.material.body.tensile_strength = 1e6;
                },
                {nothing},
-               "Material/Tensile strength"}};
+               "Material/Tensile strength"},
+              {"softening by stress",
+               [breaks](SceneParameters &scene) {
+                 breaks(scene);
+                 scene.material.softening             = "linear";
+                 scene.material.failure_criterion     = "maximum tensile stress";
+                 scene.material.body.tensile_strength = 1e6;
+               },
+               {nothing},
+               "Material/Failure criterion"}};
     }
   } // namespace
 

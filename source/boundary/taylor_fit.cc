@@ -160,12 +160,14 @@ namespace perideal
     result.nodes.insert(result.nodes.end(), families.begin(i), families.end(i));
     result.of_nodes.setZero(Basis::n_coefficients, dim * result.nodes.size());
     result.of_known.setZero(Basis::n_coefficients, 0);
-    Eigen::Matrix<double, dim, dim> normal = Eigen::Matrix<double, dim, dim>::Zero();
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(dim, dim);
     for (std::size_t a = 1; a < result.nodes.size(); ++a)
       {
         const auto     member = monomials_of_member(i, result.nodes[a]);
         const Gradient d      = member.first.template head<dim>();
-        normal += member.second * d * d.transpose();
+        for (int b = 0; b < dim; ++b)
+          for (int c = 0; c < dim; ++c)
+            normal(b, c) += member.second * d[b] * d[c];
       }
     const Eigen::Matrix<double, dim, dim> inverse =
       PseudoInverse<Eigen::MatrixXd>(normal, square_tolerance).matrix();

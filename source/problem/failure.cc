@@ -118,9 +118,11 @@ namespace perideal
       }};
     if (body.parameters.material.has_criterion())
       {
-        limits.uniaxial = [&](const LocalIndex i) { return strain_of_strength(body, families.material[i]); };
-        limits.utilisation = [&families, of_material = utilisation_of_strengths(body)](
-                               const LocalIndex i, const dealii::SymmetricTensor<2, 3> &stress) {
+        limits.criterion.uniaxial = [&](const LocalIndex i) {
+          return strain_of_strength(body, families.material[i]);
+        };
+        limits.criterion.utilisation = [&families, of_material = utilisation_of_strengths(body)](
+                                         const LocalIndex i, const dealii::SymmetricTensor<2, 3> &stress) {
           return of_material(families.material[i], stress);
         };
       }

@@ -28,6 +28,16 @@ namespace perideal
       return held.mask()[component] ? -internal.local_element(component) - external.local_element(component) :
                                       0.;
     }
+
+    template <int dim>
+    NodalVector
+    support_forces(const DirichletNodes<dim> &held, const NodalVector &external, const NodalVector &internal)
+    {
+      NodalVector result(internal);
+      for (std::size_t k = 0; k < held.mask().size(); ++k)
+        result.local_element(k) = support_force(held, k, external, internal);
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -155,10 +165,32 @@ namespace perideal
   template <int dim>
   bool EquilibriumPath<dim>::extend_bonds()
   {
-    // What softened for good on the way from the last equilibrium counts as dissipated, not as switched.
-    const bool         softened = breaks.in_segment;
-    const double       before   = softened ? look_at_last().strain : last.energy.strain;
+    struct LastEquilibrium
+    {
+      double                              strain;
+      NodalVector                         support_force;
+      std::vector<dealii::Tensor<1, dim>> face_support_force;
+    };
+    const auto last_seen_now = [&] {
+      const NodalVector                   now = displacement;
+      std::vector<dealii::Tensor<1, dim>> values_now;
+      for (std::size_t e = 0; face_values != nullptr && e < face_values->entries().size(); ++e)
+        values_now.push_back(face_values->entries()[e].value);
+      restore();
+      bonds.compute(force, displacement);
+      LastEquilibrium result{
+        bonds.strain_energy(), support_forces(held, last.external, force), bonds.support_forces()};
+      displacement = now;
+      if (face_values != nullptr)
+        face_values->set_values(values_now);
+      compute_forces();
+      return result;
+    };
+    // What softened for good on the way from the last equilibrium counts as dissipated, not as switched; none
+    // has before bonds took the place of cells.
     const unsigned int version  = bonds.version();
+    const bool         softened = breaks.in_segment && version > 0;
+    const double       before   = softened ? last_seen_now().strain : last.energy.strain;
     if (!bonds.extend_bonds(displacement))
       return false;
     // Bonds that were told where to begin bore the last equilibrium as they are.
@@ -169,8 +201,8 @@ namespace perideal
       }
     // The last equilibrium is seen with the bonds and cells that the force has become one of: no energy is
     // dissipated by that.
-    const auto   after    = look_at_last();
-    const double switched = before - after.strain;
+    const LastEquilibrium after    = last_seen_now();
+    const double          switched = before - after.strain;
     last.energy.switched += switched;
     last.energy.strain -= switched;
     if (!softened)
@@ -179,23 +211,6 @@ namespace perideal
         last.face_support_force = after.face_support_force;
       }
     return true;
-  }
-
-  template <int dim>
-  typename EquilibriumPath<dim>::LastSeenNow EquilibriumPath<dim>::look_at_last()
-  {
-    const NodalVector                   now = displacement;
-    std::vector<dealii::Tensor<1, dim>> values_now;
-    for (std::size_t e = 0; face_values != nullptr && e < face_values->entries().size(); ++e)
-      values_now.push_back(face_values->entries()[e].value);
-    restore();
-    bonds.compute(force, displacement);
-    LastSeenNow result{bonds.strain_energy(), support_forces(last.external, force), bonds.support_forces()};
-    displacement = now;
-    if (face_values != nullptr)
-      face_values->set_values(values_now);
-    compute_forces();
-    return result;
   }
 
   template <int dim>
@@ -292,19 +307,9 @@ namespace perideal
   }
 
   template <int dim>
-  NodalVector EquilibriumPath<dim>::support_forces(const NodalVector &external,
-                                                   const NodalVector &internal) const
-  {
-    NodalVector result(internal);
-    for (std::size_t k = 0; k < held.mask().size(); ++k)
-      result.local_element(k) = support_force(held, k, external, internal);
-    return result;
-  }
-
-  template <int dim>
   void EquilibriumPath<dim>::keep(const NodalVector &external, const NodalVector &internal)
   {
-    last.support_force  = support_forces(external, internal);
+    last.support_force  = support_forces(held, external, internal);
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
       {

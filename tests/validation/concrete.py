@@ -7,6 +7,10 @@ from cracks import MODELS
 from page import Row, judged
 from scenes import Failed, at, peak
 
+# Bonds of the zone in the consistent form, which a stress starts.
+BY_STRESS = ["Material/Model=correspondence", "Material/Form=automatic", "Material/Compressive strength=30e6"]
+CRITERIA = ("maximum tensile stress", "Mohr-Coulomb", "Drucker-Prager")
+
 
 def bar(runner, _):
     """The largest stress of a bar over the tensile strength, gripped at its ends or in collars of its own strain."""
@@ -50,10 +54,29 @@ def brazilian_disc(runner, long):
     return rows
 
 
-def l_panel(runner, long):
+def settings_of(model):
+    return MODELS[model] if model in MODELS else [*BY_STRESS, f"Material/Failure criterion={model}"]
+
+
+def stress_onset(runner, long):
+    """Bonds that a stress starts: the strength of a bar, by criterion and mesh, and the L-shaped panel."""
+    rows = []
+    for criterion in CRITERIA:
+        strengths = []
+        for columns in (20, 40):
+            run = runner.run("bar/bar.prm", f"bar/{criterion} {columns}",
+                             [f"Mesh/Cells={columns}, {columns // 2}", *settings_of(criterion)])
+            strengths.append(max(run.column("reaction of right along x")) / .05 / 3.9e6)
+        rows.append(Row("bar in tension", "definition of f_t", f"{criterion}; 20, 40 cells", "largest stress over f_t",
+                        "1.00 +- .05", ", ".join(f"{strength:.3f}" for strength in strengths),
+                        judged(strengths, .95, 1.05)))
+    return rows + l_panel(runner, long, CRITERIA[:2])
+
+
+def l_panel(runner, long, models=("energy form", "springs")):
     """The L-shaped panel: peak and tail by model, mesh and fracture energy, and how far apart the meshes are."""
     rows = []
-    for model in ("energy form", "springs"):
+    for model in models:
         for energy in (90, 65):
             peaks = []
             for size in (20, 10, *([5] if long else [])):
@@ -61,7 +84,7 @@ def l_panel(runner, long):
                 name = f"l_panel/{model} {size} {energy}"
                 file = runner.mesh("../../meshes/l_panel.geo", f"l_panel_{size}", Size=1e-3 * size)
                 try:
-                    run = runner.run("l_panel/l_panel.prm", name, [*MODELS[model], f"Mesh/File={file}",
+                    run = runner.run("l_panel/l_panel.prm", name, [*settings_of(model), f"Mesh/File={file}",
                                                                    f"Material/Fracture energy={energy}"])
                 except Failed as failure:
                     rows.append(Row("L-panel", "Winkler et al. 2004", mesh, "a run to its end", "", str(failure), "no"))

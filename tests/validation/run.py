@@ -75,6 +75,9 @@ SPECIMENS = {
                             "linear law; a law with a steeper beginning was not tried. With G_f = 60 J/m^2 its peak, 1,068 N, and its "
                             "tail, 460 N, are in the range, the opening at the peak, 26 um, is not; that is no constant fixed "
                             "beforehand, and is not used."),
+    "stress_onset": (concrete.stress_onset,
+                     "near a corner the stress is one of pulls in two directions, where bonds are started later than under one: the "
+                     "finest mesh resolves that."),
     "l_panel": (concrete.l_panel,
                 "tails fall below the experiment with either fracture energy. Straight lines through the three published points "
                 "have done 3.1 J by 1 mm; G_f times the crack's area (some 280 mm by 100 mm) is 1.8 to 2.5 J. Springs follow "

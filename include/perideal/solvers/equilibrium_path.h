@@ -199,19 +199,6 @@ namespace perideal
     };
     Equilibrium last;
 
-    /// Energy [J] and forces of supports [N] of the last equilibrium, as the bonds that there are now have
-    /// them.
-    struct LastSeenNow
-    {
-      double                              strain;
-      NodalVector                         support_force;
-      std::vector<dealii::Tensor<1, dim>> face_support_force;
-    };
-    /// Leaves the present state as it was. Collective.
-    LastSeenNow look_at_last();
-    /// Of the nodes, zero in free components [N].
-    NodalVector support_forces(const NodalVector &external, const NodalVector &internal) const;
-
   private:
     /// Keeps displacement, loads, supports and values at faces as those of the last equilibrium.
     void keep(const NodalVector &external, const NodalVector &internal);

@@ -200,8 +200,9 @@ namespace perideal
   }
 
   template <int dim>
-  typename BreakingBonds<dim>::Memory BreakingBonds<dim>::memory() const
+  typename BreakingBonds<dim>::Memory BreakingBonds<dim>::memory()
   {
+    softening.begin(critical_stretch);
     Memory result;
     for (std::size_t k = n_cut; k < this->lost.size(); ++k)
       result.broken.push_back({this->lost[k].near, this->lost[k].far});

@@ -6,6 +6,16 @@
 namespace perideal
 {
   template <int dim>
+  NodalVector displacement_of(const Families<dim> &families, const BondForce<dim> &force)
+  {
+    NodalVector result(families.make_partitioner(dim));
+    for (LocalIndex i = 0; i < families.n_local(); ++i)
+      for (int d = 0; d < dim; ++d)
+        result.local_element(dim * i + d) = force.positions()[i].value[d] - families.position[i][d];
+    return result;
+  }
+
+  template <int dim>
   std::vector<dealii::Tensor<2, dim>> intact_gradients(const Families<dim>           &families,
                                                        const BondForce<dim>          &force,
                                                        const NodalVector             &displacement,
@@ -27,5 +37,6 @@ namespace perideal
     return fit.gradients();
   }
 
+  PERIDEAL_INSTANTIATE(displacement_of)
   PERIDEAL_INSTANTIATE(intact_gradients)
 } // namespace perideal

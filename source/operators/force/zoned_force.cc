@@ -100,9 +100,7 @@ namespace perideal
     limits.set(*whole->families, *bonds);
     for (LocalIndex i = 0; i < limit.size(); ++i)
       limit[i] = limits.first_strain(i);
-    strength.utilisation = limits.utilisation;
-    strength.uniaxial    = limits.uniaxial;
-    strength.is_reached.assign(limit.size(), false);
+    onset = StressOnset<dim>(limits.criterion, families->n_owned());
     scale();
   }
 
@@ -136,7 +134,6 @@ namespace perideal
     if (bonds)
       {
         auto &earlier = dynamic_cast<BreakingBonds<dim> &>(*bonds);
-        earlier.take_back();
         dynamic_cast<BreakingBonds<dim> &>(*made).restore(earlier.memory());
       }
     made->judge_bonds(judges);
@@ -201,55 +198,13 @@ namespace perideal
   template <int dim>
   bool ZonedForce<dim>::extend_bonds(const NodalVector &displacement)
   {
-    return grow_ahead(displacement) || start_softening();
-  }
-
-  template <int dim>
-  bool ZonedForce<dim>::grow_ahead(const NodalVector &displacement)
-  {
     const auto near = [&](const double share) { return nodes_near_breaking(*cells, zone, limit, share); };
     const unsigned int comes_near = near(near_to_breaking).empty() ? 0 : 1;
-    return dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0 &&
-           grow(near(alike * near_to_breaking), displacement);
-  }
-
-  template <int dim>
-  bool ZonedForce<dim>::start_softening()
-  {
-    if (!strength.utilisation || !zone.is_there())
-      return false;
-    // Cells do not know what broke, and strain more beside it: they tell whom to look at.
-    constexpr double share_of_cells = 0.9;
-    const auto       of_cells_there = cells->gradients();
-    const auto       stress         = [&](const LocalIndex i, const dealii::Tensor<2, dim> &gradient) {
-      return cells->law(i).cauchy_stress(gradient);
-    };
-    std::vector<LocalIndex> nodes;
-    for (LocalIndex i = 0; i < of_cells_there.size(); ++i)
-      if (zone.share()[i] > 0 && !strength.is_reached[i] &&
-          strength.utilisation(i, stress(i, of_cells_there[i])) >= share_of_cells * near_to_strength)
-        nodes.push_back(i);
-    const unsigned int any = nodes.empty() ? 0 : 1;
-    if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
-      return false;
-    const auto                  gradients = gradients_of_bonds(nodes);
-    std::vector<SofteningOnset> onset;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      {
-        const LocalIndex              i      = nodes[k];
-        const dealii::Tensor<2, dim> &g      = gradients[k];
-        const double                  share  = strength.utilisation(i, stress(i, g));
-        const auto                    strain = symmetrize(g + 0.5 * transpose(g) * g);
-        const double                  most   = eigenvalues(strain)[0];
-        // What is pressed together only does not open.
-        if (share < near_to_strength || !(most > 0))
-          continue;
-        strength.is_reached[i]      = true;
-        const double across         = (trace(strain) - most) / (dim - 1.);
-        const auto [along, lateral] = strength.uniaxial(i);
-        onset.push_back({i, most / share, -across / most, along, lateral});
-      }
-    return dynamic_cast<BreakingBonds<dim> &>(*bonds).start_softening(onset, strength.borne);
+    if (dealii::Utilities::MPI::max(comes_near, displacement.get_mpi_communicator()) > 0 &&
+        grow(near(alike * near_to_breaking), displacement))
+      return true;
+    return zone.is_there() &&
+           onset.start(*cells, *families, dynamic_cast<BreakingBonds<dim> &>(*bonds), zone.share());
   }
 
   template <int dim>
@@ -257,18 +212,12 @@ namespace perideal
   {
     change.is_there = false;
     cells->compute(of_cells, displacement);
+    // Bonds are told when to begin by where they were before.
     if (judges)
-      grow_ahead(displacement);
+      extend_bonds(displacement);
     bonds->compute(force, displacement);
     force += of_cells;
-    if (strength.utilisation && (judges || strength.borne.size() == 0))
-      {
-        // A copy would leave out the ghosts.
-        NodalVector now = displacement_of_bonds();
-        strength.borne.swap(now);
-      }
-    if (judges)
-      start_softening();
+    onset.keep(*families, *bonds, judges);
   }
 
   template <int dim>
@@ -279,26 +228,9 @@ namespace perideal
     for (LocalIndex i = 0; i < result.size(); ++i)
       if (zone.share()[i] > 0)
         nodes.push_back(i);
-    const auto in_zone = gradients_of_bonds(nodes);
+    const auto in_zone = intact_gradients(*families, *bonds, displacement_of(*families, *bonds), nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k)
       result[nodes[k]] = in_zone[k];
-    return result;
-  }
-
-  template <int dim>
-  std::vector<dealii::Tensor<2, dim>>
-  ZonedForce<dim>::gradients_of_bonds(const std::vector<LocalIndex> &nodes) const
-  {
-    return intact_gradients(*families, *bonds, displacement_of_bonds(), nodes);
-  }
-
-  template <int dim>
-  NodalVector ZonedForce<dim>::displacement_of_bonds() const
-  {
-    NodalVector result(families->make_partitioner(dim));
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
-      for (int d = 0; d < dim; ++d)
-        result.local_element(dim * i + d) = bonds->positions()[i].value[d] - families->position[i][d];
     return result;
   }
 

@@ -59,8 +59,7 @@ namespace
                                                      [begins](const auto, const auto) { return begins; });
                          },
                          [begins](const LocalIndex) { return begins; },
-                         utilisation,
-                         [begins](const LocalIndex) { return std::make_pair(begins, 0.3); }});
+                         {utilisation, [begins](const LocalIndex) { return std::make_pair(begins, 0.3); }}});
       tangent = std::make_unique<ZonedTangent<dim>>(cells);
       force->initialize(value);
     }
@@ -246,7 +245,8 @@ namespace
     whole   = largest(by_stretch);
     by_both = largest(by_stress);
     EXPECT_GT(whole, 0.2);
-    // Calibrated alike; at the middle the pull is held across, where a stretch begins as under a uniaxial one.
+    // Calibrated alike; at the middle the pull is held across, where a stretch begins as under a uniaxial
+    // one.
     EXPECT_NEAR(by_both, whole, 0.5 * whole);
   }
 

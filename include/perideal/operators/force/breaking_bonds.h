@@ -49,15 +49,13 @@ namespace perideal
       std::vector<BondEnds>         broken, softened;
       std::vector<double>           of_softened;
     };
-    Memory memory() const;
+    /// What softened without being judged is taken back first.
+    Memory memory();
     /// Breaks and softens bonds as they did before. Those that are no bonds here are left out.
     void restore(const Memory &earlier);
 
     /// Registers the memory of the bonds that are there when it is asked for.
     static void register_bonds(LastingState &state, const std::function<BreakingBonds &()> &bonds);
-
-    /// Takes back what softened without being judged.
-    void take_back() { softening.begin(critical_stretch); }
 
     /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes, or pass
     /// through    /// them: a crack there crosses them. Returns whether a bond started. Collective.

@@ -8,6 +8,10 @@
 
 namespace perideal
 {
+  /// Returns the displacement by local component, of ghosts too, at the last compute() of a force [m].
+  template <int dim>
+  NodalVector displacement_of(const Families<dim> &families, const BondForce<dim> &force);
+
   /// Returns (d u_a/d x_b) of owned nodes by FamilyQuadratics over those of their bonds that neither broke
   /// nor softened: along the others the displacement jumps.
   /// @param displacement as FamilyQuadratics takes it [m]

@@ -5,6 +5,7 @@
 #include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/operators/force/consistent_force.h>
 #include <perideal/operators/force/fracture_zone.h>
+#include <perideal/operators/force/stress_onset.h>
 #include <perideal/operators/force/wrapped_bonds.h>
 
 #include <functional>
@@ -28,10 +29,7 @@ namespace perideal
    * growth changes the energy in second order of the cells' size, most at the tips of cracks; what it does
    * change is booked.
    *
-   * Where a criterion says when bonds begin to soften (Limits::utilisation), they wait for it: once the
-   * stress of a node comes near to it, the bonds through its cell are told the stretch at which they begin
-   * (SofteningOnset). The stress is that of the
-   * bonds that are whole. Nodes are looked at when the zone is.
+   * Where bonds wait for a stress (StressOnset), they are told when to begin where the zone is looked at.
    *
    * Whole families are made on demand: of nodes with a chi, of their members, with which they share the bonds
    * whose stretches they decide on, and of some more, so that they need not be made at each growth; and where
@@ -46,9 +44,6 @@ namespace perideal
     /// Where one grows, nodes with so much of that make it grow too: of nodes that are equal, rounding does
     /// not choose one.
     static constexpr double alike = 0.98;
-    /// Share of their strength from which on the bonds of a node know when they begin, which the first do at
-    /// .7 to .8 of it [-].
-    static constexpr double near_to_strength = 0.6;
 
     /// Returns the weights of the whole families of some nodes, which will change.
     using Weigh =
@@ -70,11 +65,8 @@ namespace perideal
       std::function<void(const Families<dim> &, BondForce<dim> &)> set;
       /// Strain of a local node at which bonds like its own begin to fail [-]; infinity: never.
       std::function<double(const LocalIndex)> first_strain;
-      /// Share of its strength that Cauchy's stress [Pa] takes of an owned node whose bonds wait for that
-      /// [-]; null: none waits. And the strain along the uniaxial stress that takes all of it, and the
-      /// contraction across over that [-].
-      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation = {};
-      std::function<std::pair<double, double>(const LocalIndex)>                     uniaxial    = {};
+      /// For which stress bonds wait.
+      typename StressOnset<dim>::Criterion criterion = {};
     };
     /// Makes bonds breakable from now on. Collective.
     void set_limits(const Limits &limits);
@@ -128,15 +120,6 @@ namespace perideal
     /// Lets the zone grow around nodes and keeps what that changes at this displacement; returns whether it
     /// did. Collective.
     bool grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
-    /// Lets the zone grow around nodes that come near to breaking; returns whether it did. Collective.
-    bool grow_ahead(const NodalVector &displacement);
-    /// Starts the bonds that wait of nodes whose stress comes to their strength at the last compute() of
-    /// cells and bonds; returns whether one did. Collective.
-    bool start_softening();
-    /// By local component at the last compute() of the bonds [m].
-    NodalVector displacement_of_bonds() const;
-    /// By intact_gradients(), of nodes in the zone at the last compute().
-    std::vector<dealii::Tensor<2, dim>> gradients_of_bonds(const std::vector<LocalIndex> &nodes) const;
     /// Makes the bonds of the chosen families, with what is cut, broken and softened. Collective.
     void make_bonds();
     /// Gives cells and bonds their shares. Collective.
@@ -161,16 +144,8 @@ namespace perideal
     Making making;
     /// Strain at which bonds of an owned node begin to fail [-].
     std::vector<double> limit;
-    /// The strength of Limits, the owned nodes whose bonds do not wait any more, and the displacement by
-    /// local component at the last compute() that judged bonds, or the first one.
-    struct
-    {
-      std::function<double(const LocalIndex, const dealii::SymmetricTensor<2, 3> &)> utilisation;
-      std::function<std::pair<double, double>(const LocalIndex)>                     uniaxial;
-      std::vector<bool>                                                              is_reached;
-      NodalVector                                                                    borne;
-    } strength;
-    bool judges = true;
+    StressOnset<dim>    onset;
+    bool                judges = true;
 
     NodalVector of_cells;
     /// What the growth in the last compute() has added to the force [N] and taken from the energy [J].
