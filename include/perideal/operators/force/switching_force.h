@@ -15,8 +15,8 @@ namespace perideal
 
     /// Lets bonds take the place of cells where they come near to breaking at the displacement of the last
     /// compute(), which does so by itself while it looks for bonds to break, and lets those begin to soften
-    /// that wait for a stress. Returns whether that changed the force, which is then to be computed again; its
-    /// version() tells whether it is another one at the last equilibrium, too. Collective.
+    /// that wait for a stress. Returns whether that changed the force, which is then to be computed again;
+    /// its version() tells whether it is another one at the last equilibrium, too. Collective.
     virtual bool extend_bonds(const NodalVector &) { return false; }
 
     /// How often bonds took the place of cells.
