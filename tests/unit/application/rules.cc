@@ -139,7 +139,7 @@ TEST(Rules, RefuseWhateverIsRefusedOfAllPairs)
   unsigned int          pairs = 0, refused = 0;
   // Values that are wrong by themselves, and not beside others.
   const std::vector<std::string> of_values = {
-    "either by stress or by stretch", "no use for this", "not a point of the scene"};
+    "either by stress or by stretch", "both are needed", "no use for this", "not a point of the scene"};
   for (std::size_t a = 0; a < choices.size(); ++a)
     for (std::size_t b = a; b < choices.size(); ++b)
       if (choices[a].path != choices[b].path || a == b)
