@@ -2,6 +2,8 @@
 #include <perideal/materials/models.h>
 #include <perideal/operators/force/zoned_force.h>
 #include <perideal/operators/linear/zoned_tangent.h>
+#include <perideal/output/checkpoint.h>
+#include <perideal/output/lasting_state.h>
 #include <perideal/parameters/elastic_constants.h>
 
 #include "bodies.h"
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 using namespace perideal;
 
@@ -272,8 +275,45 @@ namespace
           }
     EXPECT_GT(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 0.2);
   }
+  /// A run that goes on has the bonds that were started, and where they begin.
+  template <int dim>
+  void expect_started_bonds_to_last()
+  {
+    const auto    criterion = largest_stress_over(0.01);
+    ZonedBox<dim> before(0.01, MPI_COMM_SELF, false, criterion), after(0.01, MPI_COMM_SELF, false, criterion);
+    for (const double strain : {0.004, 0.007})
+      before.force->compute(before.value, before.pulled(strain, 1e-4));
+    const unsigned int rank      = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const std::string  directory = "zoned_force_" + std::to_string(dim) + "d_" + std::to_string(rank);
+    std::filesystem::create_directories(directory);
+    CheckpointNodes nodes{{}, before.body.nodes.size(), before.body.nodes.n_global, MPI_COMM_SELF};
+    for (LocalIndex i = 0; i < nodes.n_owned; ++i)
+      nodes.key.push_back(i);
+    LastingState saved, resumed;
+    before.force->register_state(saved);
+    after.force->register_state(resumed);
+    Checkpoint checkpoint;
+    checkpoint.header = {{"step", 1}, {"time", 0.}};
+    saved.save(checkpoint);
+    write_checkpoint(directory, checkpoint, nodes);
+    resumed.resume(read_checkpoint(directory, nodes));
+    after.force->compute(after.value, after.pulled(0.007, 1e-4));
+    for (const double strain : {0.012, 0.02})
+      for (ZonedBox<dim> *box : {&before, &after})
+        box->force->compute(box->value, box->pulled(strain, 1e-4));
+    EXPECT_EQ(before.force->damage(), after.force->damage());
+    EXPECT_EQ(before.force->strain_energy(), after.force->strain_energy());
+  }
 } // namespace
 
+TEST(ZonedForce, StartedBondsLast2D)
+{
+  expect_started_bonds_to_last<2>();
+}
+TEST(ZonedForce, StartedBondsLast3D)
+{
+  expect_started_bonds_to_last<3>();
+}
 TEST(ZonedForce, BondsWaitForAStress2D)
 {
   expect_bonds_to_wait<2>();
