@@ -175,9 +175,8 @@ namespace perideal
       "Failure criterion",
       failure_criterion,
       "By which stress bonds of Model = correspondence break, the mean of that at their ends; with "
-      "Softening, "
-      "where the bonds of a node begin to soften, of Form = consistent, which takes Fracture energy to the "
-      "end: " +
+      "Softening, where the bonds of a node begin to soften, of Form = consistent, which takes Fracture "
+      "energy to the end: " +
         meanings_of<StressCriterionTraits>() +
         ". Principal stresses are those in space. Without it bonds break by stretch");
     prm.add_parameter(
@@ -188,8 +187,7 @@ namespace perideal
         meanings_of<SofteningTraits>() +
         ". Cracks of bonds that break at once grow late. With Tensile strength softening begins where the "
         "bonds of a family bear it together, or where a Failure criterion says so; without, at 0.71 times "
-        "the "
-        "critical stretch of bonds that break at once");
+        "the critical stretch of bonds that break at once");
     declare_properties(prm, body, file, "Material");
     for (const std::string &group : file.subsections("Material"))
       {

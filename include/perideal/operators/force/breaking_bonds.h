@@ -58,7 +58,8 @@ namespace perideal
     static void register_bonds(LastingState &state, const std::function<BreakingBonds &()> &bonds);
 
     /// Starts the softening of the waiting bonds that begin or end in the cells of owned nodes, or pass
-    /// through    /// them: a crack there crosses them. Returns whether a bond started. Collective.
+    /// through them: a crack there crosses them. Returns whether a bond started. Collective.
+    /// @param onset when, by node
     /// @param borne displacement of the last state that was judged, by local component, which all waiting
     /// bonds bore: none starts below that [m]
     bool start_softening(const std::vector<SofteningOnset> &onset, const NodalVector &borne);

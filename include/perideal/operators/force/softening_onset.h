@@ -17,6 +17,7 @@ namespace perideal
    */
   struct SofteningOnset
   {
+    /// Of this rank, which others are not told.
     LocalIndex node = 0;
     /// The largest strain, if it grows in proportion, with which the strength is reached [-].
     double strain = 0;
@@ -39,7 +40,7 @@ namespace perideal
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &node &strain &lateral &uniaxial_strain &uniaxial_lateral;
+      archive &strain &lateral &uniaxial_strain &uniaxial_lateral;
     }
   };
 } // namespace perideal
