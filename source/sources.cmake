@@ -364,4 +364,6 @@ set(perideal_sources
   application/combinations.cc
   application/new_scene.cc
   application/reference.cc
+  problem/carried_state.cc
+  problem/mesh_need.cc
 )

@@ -15,7 +15,7 @@ namespace perideal
     template <int dim>
     void run_or_check(const SceneParameters &parameters, const RunContext &context, const bool only_check)
     {
-      if (parameters.adaptation.is_wanted() && !only_check)
+      if ((parameters.adaptation.is_by_error() || parameters.adaptation.is_by_need()) && !only_check)
         {
           run_adaptively<dim>(parameters, context, MPI_COMM_WORLD);
           return;

@@ -9,12 +9,13 @@ namespace perideal
   {
     using Scene              = SceneParameters;
     const char *const wanted = "Adaptation/Wanted error";
+    const char *const levels = "Adaptation/Levels";
     return {
       refuse(
         wanted,
         "Solver/Name other than static",
         [](const Scene &s) {
-          return s.adaptation.is_wanted() && (s.solver.is_dynamic() || s.solver.is_nonlinear_static());
+          return s.adaptation.is_by_error() && (s.solver.is_dynamic() || s.solver.is_nonlinear_static());
         },
         "the error is estimated of linear equilibria",
         "0 for Solver/Name = ...",
@@ -22,15 +23,46 @@ namespace perideal
       refuse(
         wanted,
         "Material/Form other than consistent",
-        [](const Scene &s) { return s.adaptation.is_wanted() && !s.model.is_consistent(); },
+        [](const Scene &s) { return s.adaptation.is_by_error() && !s.model.is_consistent(); },
         "the error is estimated of what cells of the consistent form have for polynomials",
         "0 for this form",
         "set Material/Form = consistent"),
       refuse(
         wanted,
         "Thermal strain/Temperature",
-        [](const Scene &s) { return s.adaptation.is_wanted() && !s.loads.temperature.empty(); },
+        [](const Scene &s) { return s.adaptation.is_by_error() && !s.loads.temperature.empty(); },
         "the estimate of the error takes no thermal strain",
+        "0 with Thermal strain/Temperature"),
+      refuse(
+        levels,
+        "Solver/Name = static | dynamic relaxation",
+        [](const Scene &s) {
+          return s.adaptation.is_by_need() && !s.solver.is_dynamic() && !s.solver.is_quasi_static();
+        },
+        "the mesh changes between the steps of a motion or of quasi statics",
+        "0 for this solver",
+        "set Solver/Name = quasi static, or in linear statics Adaptation/Wanted error"),
+      refuse(
+        levels,
+        "Adaptation/Wanted error",
+        [](const Scene &s) { return s.adaptation.is_by_need() && s.adaptation.is_by_error(); },
+        "a mesh adapts by its error or by need, not by both",
+        "0 with Adaptation/Wanted error"),
+      refuse(
+        levels,
+        "Nodes/Perturbation, Quadrature/Scheme = gauss points",
+        [](const Scene &s) {
+          return s.adaptation.is_by_need() && (s.nodes.perturbation > 0 || s.quadrature.has_gauss_points());
+        },
+        "what lasts is carried between centroids of cells",
+        "0 with other nodes"),
+      refuse(
+        levels,
+        "Thermal strain/Temperature",
+        [](const Scene &s) {
+          return s.adaptation.is_by_need() && !s.loads.temperature.empty();
+        },
+        "what heating did to cells is not carried to halves of these",
         "0 with Thermal strain/Temperature"),
     };
   }

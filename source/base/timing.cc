@@ -25,6 +25,14 @@ namespace perideal
     for (auto &phase : result)
       phase.second = dealii::Utilities::MPI::max(phase.second, communicator);
     result["total"] = dealii::Utilities::MPI::max(total.wall_time(), communicator);
+    for (const auto &[phase, of_phase] : earlier)
+      result[phase] += of_phase;
     return result;
+  }
+
+  void Timings::add_earlier(const std::map<std::string, double> &phases)
+  {
+    for (const auto &[phase, of_phase] : phases)
+      earlier[phase] += of_phase;
   }
 } // namespace perideal

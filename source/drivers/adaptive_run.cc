@@ -3,6 +3,7 @@
 #include <perideal/base/text.h>
 #include <perideal/drivers/adaptive_run.h>
 #include <perideal/drivers/driver.h>
+#include <perideal/output/checkpoint_file.h>
 #include <perideal/output/summary.h>
 
 #include <deal.II/base/timer.h>
@@ -40,18 +41,23 @@ namespace perideal
       }
 
       /// Adds a mesh, and tells it.
+      /// @param name of what is told of it besides, for people and for summary.json
       template <int dim>
-      void add(Run &run, const Mesh<dim> &mesh, const ErrorEstimate &estimate)
+      void add(Run               &run,
+               const Mesh<dim>   &mesh,
+               const std::string &in_words,
+               const std::string &name,
+               const double       value)
       {
         clock.stop();
         const MeshFigures figures = measure(mesh);
         run.screen << "adaptation  " << rows.size() << ": " << grouped(figures.n_cells)
-                   << " cells, the smallest " << short_number(figures.smallest_size) << " m, estimated error "
-                   << short_number(estimate.total()) << std::endl;
+                   << " cells, the smallest " << short_number(figures.smallest_size) << " m, " << in_words
+                   << ' ' << short_number(value) << std::endl;
         rows.push_back({{"cells", figures.n_cells},
                         {"cells_by_level", figures.n_cells_by_level},
                         {"smallest_size", figures.smallest_size},
-                        {"estimated_error", estimate.total()},
+                        {name, value},
                         {"seconds", clock.wall_time()}});
         clock.restart();
       }
@@ -61,45 +67,127 @@ namespace perideal
     private:
       dealii::Timer clock;
     };
+
+    template <int dim>
+    void run_by_error(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator)
+    {
+      const AdaptationParameters &adaptation = parameters.adaptation;
+      std::unique_ptr<Mesh<dim>>  mesh;
+      AdaptationTable             table(communicator);
+      for (unsigned int cycle = 0;; ++cycle)
+        {
+          // Why the mesh is not refined any more; empty: it may be.
+          std::string limit;
+          {
+            Problem<dim> problem(parameters, context, communicator);
+            problem.body.mesh          = std::move(mesh);
+            const auto          driver = create_driver(problem);
+            const ErrorEstimate estimate =
+              driver->estimate(std::min(1e-4, share_of_solver * adaptation.wanted_error));
+            table.add(
+              problem.run, *problem.body.mesh, "estimated error", "estimated_error", estimate.total());
+            if (cycle == adaptation.cycles)
+              limit = "Adaptation/Cycles = " + std::to_string(adaptation.cycles);
+            const bool is_enough = estimate.total() <= adaptation.wanted_error;
+            if (!is_enough && limit.empty() &&
+                !mark_largest(*problem.body.mesh, by_cell(estimate, problem.body), adaptation.max_cells))
+              limit = "Adaptation/Largest number of cells = " + grouped(adaptation.max_cells);
+            if (is_enough || !limit.empty())
+              {
+                if (!is_enough)
+                  problem.run.warn("the error is estimated at " + short_number(estimate.total()) +
+                                   ", and Adaptation/Wanted error = " +
+                                   short_number(adaptation.wanted_error) + " is not reached within " + limit);
+                problem.run.adaptation = table.rows;
+                driver->run();
+                return;
+              }
+            mesh = std::move(problem.body.mesh);
+          }
+          refine_marked(*mesh);
+        }
+    }
+
+    /// Brings a mesh to the cells that the last checkpoint was written on; one that cannot be read is
+    /// complained of where its state is read. Collective.
+    template <int dim>
+    void refine_as_in_checkpoint(const std::string &directory, Mesh<dim> &mesh)
+    {
+      const auto pointer = CheckpointPointer::read(directory, mesh.triangulation.get_communicator());
+      if (!pointer.problem.empty())
+        return;
+      try
+        {
+          const CheckpointFile file(directory + "/" + pointer.file, pointer.checksum);
+          for (const auto &cell : file.header().at("content").at("refined cells"))
+            mesh.adapted.insert(dealii::CellId(cell.get<std::string>()));
+        }
+      catch (const hdf5::Unreadable &)
+        {
+        }
+      catch (const CheckpointFile::Json::exception &)
+        {
+        }
+      refine_like(mesh.adapted, mesh.triangulation);
+    }
+
+    /// Runs on meshes that change while the scene goes on.
+    template <int dim>
+    void run_by_need(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator)
+    {
+      const unsigned int         levels = parameters.adaptation.levels;
+      std::unique_ptr<Mesh<dim>> mesh;
+      MeshChange<dim>            change;
+      EarlierRun                 earlier;
+      AdaptationTable            table(communicator);
+      {
+        Problem<dim> problem(parameters, context, communicator);
+        problem.body.make_mesh(context.scene_directory, communicator);
+        if (parameters.checkpoints.restart)
+          refine_as_in_checkpoint(parameters.output_directory, *problem.body.mesh);
+        else
+          {
+            const auto driver = create_driver(problem);
+            driver->look_at_first_mesh();
+            change = std::move(driver->change);
+          }
+        mesh = std::move(problem.body.mesh);
+      }
+      if (change.state)
+        change.state->change(*mesh, *change.need, levels);
+      while (true)
+        {
+          double time = 0;
+          {
+            Problem<dim> problem(parameters, context, communicator);
+            problem.run.go_on(earlier);
+            problem.body.mesh = std::move(mesh);
+            if (change.state && change.state->has_begun())
+              time = change.state->time();
+            table.add(problem.run, *problem.body.mesh, "t =", "time", time);
+            problem.run.adaptation = table.rows;
+            const auto driver      = create_driver(problem);
+            driver->change         = std::move(change);
+            driver->run();
+            if (!driver->change.state)
+              return;
+            table.rows = problem.run.adaptation;
+            change     = std::move(driver->change);
+            mesh       = std::move(problem.body.mesh);
+            earlier    = problem.run.record();
+          }
+          change.state->change(*mesh, *change.need, levels);
+        }
+    }
   } // namespace
 
   template <int dim>
   void run_adaptively(const SceneParameters &parameters, const RunContext &context, MPI_Comm communicator)
   {
-    const AdaptationParameters &adaptation = parameters.adaptation;
-    std::unique_ptr<Mesh<dim>>  mesh;
-    AdaptationTable             table(communicator);
-    for (unsigned int cycle = 0;; ++cycle)
-      {
-        // Why the mesh is not refined any more; empty: it may be.
-        std::string limit;
-        {
-          Problem<dim> problem(parameters, context, communicator);
-          problem.body.mesh          = std::move(mesh);
-          const auto          driver = create_driver(problem);
-          const ErrorEstimate estimate =
-            driver->estimate(std::min(1e-4, share_of_solver * adaptation.wanted_error));
-          table.add(problem.run, *problem.body.mesh, estimate);
-          if (cycle == adaptation.cycles)
-            limit = "Adaptation/Cycles = " + std::to_string(adaptation.cycles);
-          const bool is_enough = estimate.total() <= adaptation.wanted_error;
-          if (!is_enough && limit.empty() &&
-              !mark_largest(*problem.body.mesh, by_cell(estimate, problem.body), adaptation.max_cells))
-            limit = "Adaptation/Largest number of cells = " + grouped(adaptation.max_cells);
-          if (is_enough || !limit.empty())
-            {
-              if (!is_enough)
-                problem.run.warn("the error is estimated at " + short_number(estimate.total()) +
-                                 ", and Adaptation/Wanted error = " + short_number(adaptation.wanted_error) +
-                                 " is not reached within " + limit);
-              problem.run.adaptation = table.rows;
-              driver->run();
-              return;
-            }
-          mesh = std::move(problem.body.mesh);
-        }
-        refine_marked(*mesh);
-      }
+    if (parameters.adaptation.is_by_need())
+      run_by_need<dim>(parameters, context, communicator);
+    else
+      run_by_error<dim>(parameters, context, communicator);
   }
 
   PERIDEAL_INSTANTIATE(run_adaptively)

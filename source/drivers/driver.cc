@@ -45,31 +45,38 @@ namespace perideal
     create_output_directory(problem.parameters.output_directory, problem.run.communicator);
     const DirectoryLock lock(problem.parameters.output_directory, problem.run.communicator);
     build();
-    if (problem.parameters.checkpoints.restart)
+    const bool goes_on = change.state && change.state->has_begun();
+    take_change();
+    if (problem.parameters.checkpoints.restart && !goes_on)
       open_checkpoint();
     prepare();
-    recorders  = std::make_unique<Recorders<dim>>(problem, kind);
-    auto skips = list_skipped(problem);
-    skips.update(skipped());
-    problem.run.screen << banner(problem, describe(), skips) << std::flush;
-    for (const std::string &warning : warnings(problem))
-      problem.run.warn(warning);
+    recorders = std::make_unique<Recorders<dim>>(problem, kind);
+    if (!goes_on)
+      {
+        auto skips = list_skipped(problem);
+        skips.update(skipped());
+        problem.run.screen << banner(problem, describe(), skips) << std::flush;
+        for (const std::string &warning : warnings(problem))
+          problem.run.warn(warning);
+      }
     check_loads();
     // Dynamics have moved on to their step, load steps have recorded theirs.
     recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
                     resumed.get());
-    bool reached_end = false;
+    StepsEnd end = StepsEnd::stopped;
     try
       {
-        reached_end = advance();
+        end = advance();
       }
     catch (const std::exception &)
       {
         finish_after_error();
         throw;
       }
-    finish(reached_end ? RunStatus::done : RunStatus::stopped);
-    if (!reached_end)
+    if (end == StepsEnd::mesh_changes)
+      return;
+    finish(end == StepsEnd::done ? RunStatus::done : RunStatus::stopped);
+    if (end == StepsEnd::stopped)
       throw Stopped("asked to stop after " + last_step() +
                     "; the checkpoint is written\n  advice: to continue, run the same scene with --set "
                     "Checkpoints/Restart=true");
@@ -82,6 +89,7 @@ namespace perideal
       return;
     problem.build();
     prepare_scene();
+    depth.assign(problem.body.nodes->size(), 0.);
     is_built = true;
   }
 

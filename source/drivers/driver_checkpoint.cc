@@ -5,6 +5,12 @@
 #include <perideal/nodes/cell_keys.h>
 #include <perideal/output/summary.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 // Driver: what goes on in steps is stopped and goes on.
 
 namespace perideal
@@ -45,6 +51,15 @@ namespace perideal
             }
     }
 
+    template <int dim>
+    std::vector<std::string> refined_cells_as_text(const Mesh<dim> &mesh)
+    {
+      std::vector<std::string> result;
+      for (const dealii::CellId &cell : mesh.adapted)
+        result.push_back(cell.to_string());
+      return result;
+    }
+
     /// Owned nodes and ghosts. Collective.
     template <int dim>
     CheckpointNodes checkpoint_nodes(const Problem<dim> &problem)
@@ -77,12 +92,21 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  Checkpoint Driver<dim>::state_after(const std::uint64_t step, const double time) const
+  {
+    Checkpoint checkpoint;
+    checkpoint.header = {{"step", step}, {"time", time}, {"parameters", problem.run.context.parameters}};
+    problem.lasting.save(checkpoint);
+    return checkpoint;
+  }
+
+  template <int dim>
   void Driver<dim>::save_checkpoint(const std::uint64_t step, const double time) const
   {
     const Timings::Scope scope(problem.run.timings, "output");
-    Checkpoint           checkpoint;
-    checkpoint.header = {{"step", step}, {"time", time}, {"parameters", problem.run.context.parameters}};
-    problem.lasting.save(checkpoint);
+    Checkpoint           checkpoint = state_after(step, time);
+    if (problem.parameters.adaptation.is_by_need())
+      checkpoint.header["refined cells"] = refined_cells_as_text(*problem.body.mesh);
     write_checkpoint(problem.parameters.output_directory, checkpoint, checkpoint_nodes(problem));
   }
 
@@ -114,6 +138,87 @@ namespace perideal
   {
     problem.lasting.resume(*resumed);
     resumed.reset();
+  }
+
+  template <int dim>
+  void Driver<dim>::take_change()
+  {
+    if (change.state)
+      {
+        depth = change.state->depth_on(problem.body);
+        if (change.state->has_begun())
+          resumed = std::make_unique<Checkpoint>(change.state->on(problem.body, checkpoint_nodes(problem)));
+      }
+    change = {};
+    if (problem.parameters.adaptation.is_by_need())
+      problem.lasting.add_node_array(
+        "halvings",
+        "-",
+        1,
+        [this] { return depth; },
+        [this](const std::vector<double> &values) { depth = values; });
+  }
+
+  template <int dim>
+  bool Driver<dim>::look_at_first_mesh()
+  {
+    build();
+    change.need = std::make_unique<MeshNeed<dim>>(problem, depth, 0.);
+    change.state =
+      std::make_unique<CarriedState<dim>>(problem, Checkpoint(), checkpoint_nodes(problem), depth);
+    return change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels);
+  }
+
+  template <int dim>
+  bool Driver<dim>::mesh_changes(const std::uint64_t step, const double time, const double imbalance)
+  {
+    const Timings::Scope scope(problem.run.timings, "adaptation");
+    change.need            = std::make_unique<MeshNeed<dim>>(problem, depth, time);
+    const Mesh<dim> &mesh  = *problem.body.mesh;
+    GlobalIndex      n_new = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          depth[problem.body.nodes->node_of_cell[cell->active_cell_index()]] <
+            problem.parameters.adaptation.levels &&
+          change.need->is_urgent(cell))
+        ++n_new;
+    if (dealii::Utilities::MPI::sum(n_new, problem.run.communicator) > 0)
+      {
+        Checkpoint state                 = state_after(step, time);
+        state.header["imbalance before"] = imbalance;
+        change.state =
+          std::make_unique<CarriedState<dim>>(problem, std::move(state), checkpoint_nodes(problem), depth);
+        if (change.state->is_urgent(mesh, *change.need, problem.parameters.adaptation.levels))
+          {
+            change.state->fit(problem);
+            return true;
+          }
+      }
+    change = {};
+    return false;
+  }
+
+  template <int dim>
+  void Driver<dim>::note_switched(const double energy)
+  {
+    auto &rows = problem.run.adaptation;
+    if (!rows.empty())
+      rows.back()["switched_energy"] = energy;
+  }
+
+  template <int dim>
+  double Driver<dim>::smallest_share() const
+  {
+    using dealii::Utilities::MPI::min;
+    double                     now = std::numeric_limits<double>::max(), to_come = now;
+    const std::vector<double> &spacing = problem.body.nodes->spacing;
+    for (LocalIndex i = 0; i < spacing.size(); ++i)
+      {
+        now     = std::min(now, spacing[i]);
+        to_come = std::min(
+          to_come, std::ldexp(spacing[i], static_cast<int>(depth[i] - problem.parameters.adaptation.levels)));
+      }
+    return min(to_come, problem.run.communicator) / min(now, problem.run.communicator);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Driver)

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace perideal
 {
@@ -90,8 +91,10 @@ namespace perideal
       void choose_time_step()
       {
         const Timings::Scope scope(problem.run.timings, "setup");
+        // A mesh that adapts keeps the step that its smallest cells will take.
+        const bool adapts = problem.parameters.adaptation.is_by_need();
         steps.choose(solver,
-                     this->largest_stable_step(),
+                     this->largest_stable_step() * (adapts ? this->smallest_share() : 1.),
                      forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping");
         if (resumed)
           steps.resume(solver, resumed->template get<double>("time step"));
@@ -161,13 +164,17 @@ namespace perideal
         problem.loading.check_finite(solver.end_time);
       }
 
-      bool advance() override
+      StepsEnd advance() override
       {
         recorders->summary()["solver"] = {{"name", "explicit dynamics, " + integrator()},
                                           {"time_step", steps.size},
                                           {"stable_time_step", steps.stable}};
         make_dynamics();
         register_state();
+        // Energies of the mesh before, where this one goes on from it.
+        std::optional<double> imbalance_before;
+        if (resumed && resumed->header.contains("imbalance before"))
+          imbalance_before = resumed->template get<double>("imbalance before");
         if (resumed)
           this->resume_checkpoint();
         if (!problem.loading.supports->hold_nodes())
@@ -196,6 +203,13 @@ namespace perideal
               version = problem.force->version();
               dynamics->evaluate(problem.state.external_force);
               dynamics->add_work(heating.work());
+              if (imbalance_before)
+                {
+                  const double switched = dynamics->energy().imbalance() - *imbalance_before;
+                  dynamics->add_switched(switched);
+                  this->note_switched(switched);
+                  imbalance_before.reset();
+                }
             }
             observe(n);
             if (const auto share = static_cast<double>(n) / steps.number; progress.is_due() || n == first)
@@ -212,9 +226,13 @@ namespace perideal
             if (stops || (interval > 0 && (n + 1) % interval == 0))
               save();
             if (stops)
-              return false;
+              return StepsEnd::stopped;
+            if (problem.parameters.adaptation.is_by_need() && n + 1 < steps.number &&
+                (n + 1) % problem.parameters.adaptation.interval == 0 &&
+                this->mesh_changes(dynamics->step(), dynamics->time(), dynamics->energy().imbalance()))
+              return StepsEnd::mesh_changes;
           }
-        return true;
+        return StepsEnd::done;
       }
 
       void apply_forces() { problem.loading.external_force(dynamics->time(), problem.state.external_force); }

@@ -148,7 +148,7 @@ namespace perideal
         control    = std::make_unique<LoadControl<dim>>(problem, *controlled);
       }
 
-      bool advance() override
+      StepsEnd advance() override
       {
         recorders->summary()["solver"] = solver_report;
         progress                       = std::make_unique<ProgressBar>(
@@ -172,10 +172,13 @@ namespace perideal
             const bool is_due = stops || (interval > 0 && done % interval == 0);
             if (is_done() ? problem.parameters.checkpoints.at_end && !control : is_due)
               this->save_checkpoint(done, control ? controlled->time() : time_of(done));
-            if (stops)
-              break;
+            if (stops && !is_done())
+              return StepsEnd::stopped;
+            if (problem.parameters.adaptation.is_by_need() && !is_done() &&
+                this->mesh_changes(done, control ? controlled->time() : time_of(done), 0.))
+              return StepsEnd::mesh_changes;
           }
-        return is_done();
+        return StepsEnd::done;
       }
 
       double time_of(const std::uint64_t number) const
@@ -314,11 +317,14 @@ namespace perideal
 
       void resume()
       {
-        done              = resumed->template get<unsigned int>("step");
-        const double time = resumed->template get<double>("time");
+        done                 = resumed->template get<unsigned int>("step");
+        const double time    = resumed->template get<double>("time");
+        const bool   changes = resumed->header.contains("imbalance before");
         this->resume_checkpoint();
         apply_loads(time);
         path->resume(problem.state.external_force, time);
+        if (changes)
+          this->note_switched(path->switch_mesh());
       }
 
       const SolverParameters                   &solver;

@@ -77,7 +77,7 @@ namespace perideal
                 {"set-ups of further load steps (linear)", problem.parameters.solver.load_steps - 1}};
       }
 
-      bool advance() override
+      StepsEnd advance() override
       {
         recorders->summary()["solver"] = solver_report;
         const unsigned int n_steps     = problem.parameters.solver.load_steps;
@@ -102,7 +102,7 @@ namespace perideal
               }
             recorders->write_fields(step);
           }
-        return true;
+        return StepsEnd::done;
       }
 
       void solve(Step<dim> &step)

@@ -34,6 +34,34 @@ namespace perideal
       "Cells beyond which no cell is marked any more, but for those that p4est refines beside marked "
       "ones; the mesh before is taken, and that is told",
       dealii::Patterns::Integer(1));
+    prm.add_parameter(
+      "Levels",
+      levels,
+      "How often a cell of the mesh may be halved [-] while load steps or a motion go on, where "
+      "bonds come near their limits; 0: the mesh stays as it is",
+      dealii::Patterns::Integer(0, 8));
+    prm.add_parameter("Refine from",
+                      refine_from,
+                      "Strain over the one at which bonds begin to fail [-] from which cells are halved",
+                      dealii::Patterns::Double(0.));
+    prm.add_parameter("Coarsen below",
+                      coarsen_below,
+                      "The same [-], below which cells that were halved are joined again, where no bond of "
+                      "theirs has softened or broken; 0: never",
+                      dealii::Patterns::Double(0.));
+    prm.add_parameter("Reach",
+                      reach,
+                      "How far around such places cells are halved, in spacings of the smallest cells [-]",
+                      dealii::Patterns::Double(0.));
+    prm.add_parameter("Interval",
+                      interval,
+                      "Steps of a motion [-] between two looks at the mesh; load steps end with one each",
+                      dealii::Patterns::Integer(1));
+    prm.add_parameter("Refine where",
+                      where,
+                      "Cells with their centre where this formula in x, y, z [m] and t [s] is not zero are "
+                      "halved besides, and as time goes on joined again where Coarsen below lets them",
+                      dealii::Patterns::Anything());
     prm.leave_subsection();
   }
 

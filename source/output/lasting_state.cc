@@ -30,11 +30,12 @@ namespace perideal
                                     const unsigned int                          width,
                                     const std::function<Numbers()>             &get,
                                     const std::function<void(const Numbers &)> &set,
-                                    const Show                                  show)
+                                    const Show                                  show,
+                                    const Transfer                              transfer)
   {
     add(name,
         {[=](Checkpoint &checkpoint) {
-           checkpoint.node_arrays[name] = {unit, width, get()};
+           checkpoint.node_arrays[name] = {unit, width, get(), transfer};
          },
          [=](const Checkpoint &checkpoint) { set(find(checkpoint.node_arrays, name, width).values); }});
     if (show == Show::as_field)

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -29,8 +30,17 @@ namespace perideal
     WorkProgress::watch_by({});
   }
 
+  void Run::go_on(const EarlierRun &earlier)
+  {
+    adaptation = earlier.adaptation;
+    warnings   = earlier.warnings;
+    timings.add_earlier(earlier.seconds);
+  }
+
   void Run::warn(const std::string &text)
   {
+    if (std::find(warnings.begin(), warnings.end(), text) != warnings.end())
+      return;
     screen << "warning     " << text << std::endl;
     warnings.push_back(text);
   }

@@ -243,6 +243,15 @@ namespace perideal
   }
 
   template <int dim>
+  double EquilibriumPath<dim>::switch_mesh()
+  {
+    const double now = bonds.strain_energy(), switched = last.energy.strain - now;
+    last.energy.switched += switched;
+    last.energy.strain = now;
+    return switched;
+  }
+
+  template <int dim>
   GlobalIndex EquilibriumPath<dim>::judge(const NodalVector &external)
   {
     bonds.judge_bonds(true);

@@ -36,11 +36,15 @@ namespace perideal
     /// "total" since construction. Collective.
     std::map<std::string, double> seconds() const;
 
+    /// Counts the seconds of an earlier part of the run, as seconds() gives them.
+    void add_earlier(const std::map<std::string, double> &phases);
+
   private:
-    MPI_Comm                    communicator;
-    dealii::ConditionalOStream  silent;
-    mutable dealii::TimerOutput timer;
-    mutable dealii::Timer       total;
+    MPI_Comm                      communicator;
+    dealii::ConditionalOStream    silent;
+    mutable dealii::TimerOutput   timer;
+    mutable dealii::Timer         total;
+    std::map<std::string, double> earlier;
   };
 } // namespace perideal
 

@@ -2,6 +2,7 @@
 #ifndef perideal_drivers_driver_h
 #define perideal_drivers_driver_h
 
+#include <perideal/problem/carried_state.h>
 #include <perideal/problem/mesh_error.h>
 #include <perideal/recorders/recorders.h>
 
@@ -10,6 +11,26 @@
 
 namespace perideal
 {
+  /// How a driver left its steps.
+  enum class StepsEnd
+  {
+    /// All are taken.
+    done,
+    /// The program was asked to stop.
+    stopped,
+    /// The mesh is to change before the next one.
+    mesh_changes
+  };
+
+  /// What goes from a driver to the one on the changed mesh; null without.
+  template <int dim>
+  struct MeshChange
+  {
+    std::unique_ptr<CarriedState<dim>> state;
+    /// Where the mesh is to be finer.
+    std::unique_ptr<MeshNeed<dim>> need;
+  };
+
   /**
    * Takes a problem through its steps, and hands each of them to the recorders. Every kind of solver is a
    * driver: it prepares what it needs of the problem, runs, and can check a scene without solving it.
@@ -22,7 +43,8 @@ namespace perideal
     Driver(Problem<dim> &problem, const RunKind &kind);
     virtual ~Driver() = default;
 
-    /// Runs the scene. Whatever it throws, what was computed by then is on disk. Collective.
+    /// Runs the scene, up to its end or until the mesh is to change. Whatever it throws, what was computed by
+    /// then is on disk. Collective.
     /// @throws InputError, ComputationError, and Stopped where the program was asked to stop.
     void run();
 
@@ -35,6 +57,13 @@ namespace perideal
     /// tolerance, in linear statics of the consistent form. run() goes on from there. Collective.
     /// @throws InputError as run() does before it solves, ComputationError where the solver stops.
     ErrorEstimate estimate(const double tolerance);
+
+    /// Looks where the mesh is to be finer before the first step; returns whether it is to change.
+    /// Collective.
+    bool look_at_first_mesh();
+
+    /// Before run(): what it goes on from; after it, where the mesh is to change: what goes on.
+    MeshChange<dim> change;
 
   protected:
     /// Reads what the scene says of failure and motion; needs the nodes. Collective.
@@ -49,8 +78,8 @@ namespace perideal
     /// Looks at the loads before the first step. Collective.
     virtual void check_loads() { problem.check_loads(); }
 
-    /// Takes all steps; returns false when the program was asked to stop. Collective.
-    virtual bool advance() = 0;
+    /// Takes all steps. Collective.
+    virtual StepsEnd advance() = 0;
 
     /// Returns lines of the banner.
     virtual std::string describe() const = 0;
@@ -87,6 +116,16 @@ namespace perideal
     /// Brings all that lasts to the state of the checkpoint, which is done with. Collective.
     void resume_checkpoint();
 
+    /// Whether the mesh is to change after a step, at a time; what goes on is kept then, with a number that
+    /// the driver on the next mesh reads. Collective.
+    bool mesh_changes(const std::uint64_t step, const double time, const double imbalance);
+
+    /// Notes by how much a change of the mesh lowered the energy [J].
+    void note_switched(const double energy);
+
+    /// Smallest spacing of cells that may come over the present one [-]. Collective.
+    double smallest_share() const;
+
     /// Energies of the present step, the largest so far noted.
     /// @return what is missing over that [-]
     double energy_error(const EnergyBudget &energy, const double scale);
@@ -102,6 +141,12 @@ namespace perideal
     bool is_built = false;
 
   private:
+    /// Takes what a driver on the mesh before has left, and registers what meshes must know. Collective.
+    void       take_change();
+    Checkpoint state_after(const std::uint64_t step, const double time) const;
+    /// How often the cell of each owned node was halved.
+    std::vector<double> depth;
+
     /// Makes mesh, nodes and families, and reads the scene, once. Collective.
     void build();
     void finish(const RunStatus status);

@@ -8,11 +8,12 @@
 #include <deal.II/lac/vector.h>
 
 #include <set>
+#include <string>
 #include <vector>
 
 namespace perideal
 {
-  /// Section "Adaptation".
+  /// Section "Adaptation": by the error of statics, or by need while load steps or a motion go on.
   struct AdaptationParameters
   {
     /// Estimated error of the displacement up to which cells are refined [-]; 0: the mesh stays as it is.
@@ -21,10 +22,23 @@ namespace perideal
     unsigned int cycles = 10;
     /// Cells that marked cells may not make more of.
     unsigned int max_cells = 1000000;
+    /// How often a cell of the mesh may be halved by need; 0: none is.
+    unsigned int levels = 0;
+    /// Share of what bonds bear from which cells are halved, and below which they are joined again [-].
+    double refine_from = 0.5, coarsen_below = 0.;
+    /// How far around such a place cells are halved, in smallest spacings of the mesh [-].
+    double reach = 12.;
+    /// Steps of a motion between two looks.
+    unsigned int interval = 20;
+    /// Where cells are halved besides, not zero there: a formula in x, y, z, t; empty: nowhere.
+    std::string where;
 
     void declare(dealii::ParameterHandler &prm);
 
-    bool is_wanted() const { return wanted_error > 0.; }
+    /// Whether the mesh is to follow an estimate of the error.
+    bool is_by_error() const { return wanted_error > 0.; }
+    /// Whether it is to change while the scene runs.
+    bool is_by_need() const { return levels > 0; }
   };
 
   /// A mesh in figures.

@@ -13,12 +13,22 @@
 
 namespace perideal
 {
+  /// How the numbers of nodes are taken to other nodes, where cells were halved or joined.
+  enum class Transfer
+  {
+    /// Those of the cell; the largest of cells that were joined.
+    constant,
+    /// By a quadratic polynomial, the sum over the cells times their volumes as it was.
+    smooth
+  };
+
   /// As many numbers for each owned node, one node after another.
   struct NodeArray
   {
     std::string         unit;
     unsigned int        width = 1;
     std::vector<double> values;
+    Transfer            transfer = Transfer::constant;
   };
 
   /// Bonds of this rank in an order of their own, and as many numbers for each; none where the bonds say all.

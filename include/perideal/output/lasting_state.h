@@ -41,15 +41,13 @@ namespace perideal
                         const unsigned int                          width,
                         const std::function<Numbers()>             &get,
                         const std::function<void(const Numbers &)> &set,
-                        const Show                                  show = Show::never);
+                        const Show                                  show     = Show::never,
+                        const Transfer                              transfer = Transfer::constant);
 
-    /// The same in a vector of owned components, the size of which stays.
+    /// The same in a vector of owned components, the size of which stays; a field that is smooth.
     template <typename Vector>
-    void add_node_array(const std::string &name,
-                        const std::string &unit,
-                        const unsigned int width,
-                        Vector            &values,
-                        const Show         show = Show::never)
+    void
+    add_node_array(const std::string &name, const std::string &unit, const unsigned int width, Vector &values)
     {
       add_node_array(
         name,
@@ -60,7 +58,8 @@ namespace perideal
           const std::size_t size = std::distance(values.begin(), values.end());
           std::copy_n(read.begin(), std::min(size, read.size()), values.begin());
         },
-        show);
+        Show::never,
+        Transfer::smooth);
     }
 
     /// Registers an array over some bonds, in an order that stays on the same number of ranks. Ranks that

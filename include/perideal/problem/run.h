@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,27 @@ namespace perideal
     nlohmann::ordered_json changed_from;
   };
 
+  /// What a run has come to on the meshes before, where they adapt.
+  struct EarlierRun
+  {
+    std::map<std::string, double> seconds;
+    nlohmann::ordered_json        adaptation;
+    std::vector<std::string>      warnings;
+  };
+
   /// The surroundings of a run: what was asked for, its ranks, its screen and its clock.
   struct Run
   {
     Run(const RunContext &context, MPI_Comm communicator);
     ~Run();
 
-    /// Prints a line that begins with "warning", and keeps it for summary.json.
+    /// What the run on the next mesh goes on from. Collective.
+    EarlierRun record() const { return {timings.seconds(), adaptation, warnings}; }
+
+    /// Goes on from the run on the mesh before: its seconds and what it said count.
+    void go_on(const EarlierRun &earlier);
+
+    /// Prints a line that begins with "warning", once, and keeps it for summary.json.
     void warn(const std::string &text);
 
     const RunContext context;

@@ -104,6 +104,10 @@ namespace perideal
     /// @param external force of the loads at that time [N]
     virtual void resume(const NodalVector &external, const double time);
 
+    /// After resume() on another mesh: what is stored less than at the last equilibrium on the mesh before
+    /// counts as switched; returns it [J]. Collective.
+    double switch_mesh();
+
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;
 

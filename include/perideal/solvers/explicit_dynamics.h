@@ -82,6 +82,10 @@ namespace perideal
     /// @param of_all of all ranks
     void add_work(const double of_all);
 
+    /// Counts energy as one that is stored no more, as the mesh is another one [J].
+    /// @param of_all of all ranks
+    void add_switched(const double of_all) { breaks.switched += of_all; }
+
     /// Advances by one step.
     void advance();
 

@@ -248,6 +248,29 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<double> BreakingBonds<dim>::utilisation() const
+  {
+    NodalVector largest(families->make_partitioner(1));
+    for (LocalIndex i = 0; i < bonds.n_rows() && !critical_stretch.empty(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const LocalIndex j = bonds.neighbour[slot]; j != i && carries_force(slot))
+          {
+            double square = 0;
+            for (int d = 0; d < dim; ++d)
+              {
+                const double y = position[j].value[d] - position[i].value[d];
+                square += y * y;
+              }
+            const double share       = (std::sqrt(square) / rest_length[slot] - 1.) / critical_stretch[slot];
+            largest.local_element(i) = std::max(largest.local_element(i), share);
+            // A bond that the partition cuts is looked at from its other end, too.
+            if (j < families->n_owned())
+              largest.local_element(j) = std::max(largest.local_element(j), share);
+          }
+    return std::vector<double>(largest.begin(), largest.end());
+  }
+
+  template <int dim>
   std::vector<double> BreakingBonds<dim>::damage() const
   {
     std::vector<double> volume = volumes.broken;

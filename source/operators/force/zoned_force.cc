@@ -235,6 +235,16 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<double> ZonedForce<dim>::utilisation() const
+  {
+    std::vector<double> result = bonds->utilisation();
+    for (LocalIndex i = 0; i < result.size(); ++i)
+      if (zone.share()[i] == 0.)
+        result[i] = (std::sqrt(std::max(0., 1. + 2. * eigenvalues(cells->strain(i))[0])) - 1.) / limit[i];
+    return result;
+  }
+
+  template <int dim>
   double ZonedForce<dim>::strain_energy() const
   {
     return cells->strain_energy() + (zone.is_there() ? bonds->strain_energy() : 0.);

@@ -135,6 +135,11 @@ namespace perideal
     virtual std::vector<double> damage() const    = 0;
     virtual std::vector<double> cut_share() const = 0;
 
+    /// How near the bonds of each owned node are to their limits at the last compute() [-]: the largest
+    /// stretch, or strain, over the one at which the first of them begins to soften or breaks; zero where
+    /// nothing breaks. Collective.
+    virtual std::vector<double> utilisation() const = 0;
+
     /// Mean share of the bonds that compute() has looked at; the others were at rest. Collective.
     virtual double share_computed() const = 0;
 

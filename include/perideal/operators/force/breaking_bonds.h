@@ -38,6 +38,7 @@ namespace perideal
     const NodeRecord   *positions() const override { return position.data(); }
     std::vector<double> damage() const override;
     std::vector<double> cut_share() const override { return volumes.share(volumes.cut); }
+    std::vector<double> utilisation() const override;
     double              share_computed() const override { return regions.share_awake(); }
 
     /// What lasts of bonds: those of this rank that broke, in this order (those that the partition cuts are

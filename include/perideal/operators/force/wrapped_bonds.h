@@ -38,6 +38,7 @@ namespace perideal
     const NodeRecord   *positions() const override { return bonds->positions(); }
     std::vector<double> damage() const override { return bonds->damage(); }
     std::vector<double> cut_share() const override { return bonds->cut_share(); }
+    std::vector<double> utilisation() const override { return bonds->utilisation(); }
     double              share_computed() const override { return bonds->share_computed(); }
     double              released_energy(const NodalVector &velocity, const double time_step) const override
     {

@@ -89,6 +89,7 @@ namespace perideal
     unsigned int                        version() const override { return zone.version(); }
     double              switched_energy(const NodalVector &velocity, const double time_step) const override;
     std::vector<double> dilatation() const override { return cells->dilatation(); }
+    std::vector<double> utilisation() const override;
     std::size_t         memory_consumption() const override;
 
     /// Of cells, and in the zone, where faces open that cells do not know, by intact_gradients().

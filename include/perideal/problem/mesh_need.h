@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_problem_mesh_need_h
+#define perideal_problem_mesh_need_h
+
+#include <perideal/parameters/space_time_function.h>
+#include <perideal/problem/problem.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Knows where a body needs its smallest cells at a time: around nodes whose bonds come near their limits,
+   * around the edges of precracks, and where a formula says so. It holds no reference to the problem.
+   */
+  template <int dim>
+  class MeshNeed
+  {
+  public:
+    using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    /// Looks at a problem with nodes and, where it has one, at its force. Collective.
+    /// @param depth how often the cell of each node was halved
+    MeshNeed(const Problem<dim> &problem, const std::vector<double> &depth, const double time);
+
+    /// Whether a cell lies within the reach of a place that needs small cells.
+    bool is_near(const Cell &cell) const { return is_in(within_reach, cell); }
+
+    /// Whether it lies so near that it is to be small now: within half of the reach.
+    bool is_urgent(const Cell &cell) const { return is_in(urgent, cell); }
+
+    /// By owned node: whether bonds are far enough below their limits for larger cells.
+    std::vector<bool> is_quiet;
+
+  private:
+    using Boxes = dealii::RTree<dealii::BoundingBox<dim>>;
+
+    bool is_in(const Boxes &boxes, const Cell &cell) const;
+
+    SpaceTimeFunction<dim> where;
+    double                 time;
+    Boxes                  within_reach, urgent;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/least_squares.h>
+#include <perideal/mesh/adaptation.h>
+#include <perideal/problem/carried_state.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+namespace perideal
+{
+  namespace
+  {
+    using dealii::Utilities::MPI::sum;
+
+    /// Eigenvalues of normal equations, over the largest, that count as zero.
+    constexpr double rank_tolerance = 1e-8;
+
+    template <int dim>
+    using Terms = Eigen::Matrix<double, dim + dim *(dim + 1) / 2, 1>;
+
+    /// d, and the products of its components.
+    template <int dim>
+    Terms<dim> terms(const dealii::Tensor<1, dim> &d)
+    {
+      Terms<dim>   result;
+      unsigned int k = dim;
+      for (int a = 0; a < dim; ++a)
+        {
+          result[a] = d[a];
+          for (int b = a; b < dim; ++b)
+            result[k++] = d[a] * d[b];
+        }
+      return result;
+    }
+
+    std::vector<char> to_bytes(const std::vector<double> &numbers)
+    {
+      std::vector<char> result(numbers.size() * sizeof(double));
+      std::memcpy(result.data(), numbers.data(), result.size());
+      return result;
+    }
+
+    template <typename Range>
+    std::vector<double> to_numbers(const Range &bytes)
+    {
+      std::vector<double> result(bytes.size() / sizeof(double));
+      std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char *>(result.data()));
+      return result;
+    }
+
+    /// Whether a bond of an owned node softened or broke.
+    std::vector<bool> failed_nodes(const Checkpoint &state, const LocalIndex n_owned)
+    {
+      std::vector<bool> result(n_owned, false);
+      for (const auto &[name, array] : state.bond_arrays)
+        for (const BondEnds &bond : array.bonds)
+          for (const LocalIndex end : {bond.near, bond.far})
+            if (end < n_owned)
+              result[end] = true;
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  CarriedState<dim>::CarriedState(const Problem<dim>        &problem,
+                                  Checkpoint               &&given,
+                                  const CheckpointNodes     &keyed,
+                                  const std::vector<double> &depth)
+    : state(std::move(given))
+  {
+    const Nodes<dim> &nodes = *problem.body.nodes;
+    for (const auto &[name, array] : state.node_arrays)
+      {
+        const bool is_smooth = array.transfer == Transfer::smooth;
+        (is_smooth ? smooth : constant).push_back(name);
+        (is_smooth ? n_smooth : n_constant) += array.width;
+      }
+    const std::vector<bool> failed = failed_nodes(state, nodes.size());
+    std::vector<Numbers>    of_node(nodes.size());
+    for (LocalIndex i = 0; i < nodes.size(); ++i)
+      {
+        of_node[i] = {failed[i] ? 1. : 0., 0., depth[i]};
+        for (const auto *names : {&constant, &smooth})
+          for (const std::string &name : *names)
+            {
+              const NodeArray &array = state.node_arrays.at(name);
+              const auto       first = array.values.begin() + std::size_t(array.width) * i;
+              of_node[i].insert(of_node[i].end(), first, first + array.width);
+            }
+        of_node[i].resize(n_places + n_constant + n_smooth * (1 + n_coefficients), 0.);
+      }
+    numbers_of_cell.resize(problem.body.mesh->triangulation.n_active_cells());
+    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
+      if (nodes.node_of_cell[c] != dealii::numbers::invalid_unsigned_int)
+        numbers_of_cell[c] = std::move(of_node[nodes.node_of_cell[c]]);
+
+    for (const auto &[name, array] : state.bond_arrays)
+      {
+        KeyedBonds mine;
+        for (const BondEnds &bond : array.bonds)
+          mine.keys.insert(mine.keys.end(), {keyed.key[bond.near], keyed.key[bond.far]});
+        KeyedBonds &all = bonds[name];
+        for (const auto &of_rank : dealii::Utilities::MPI::all_gather(nodes.communicator, mine.keys))
+          all.keys.insert(all.keys.end(), of_rank.begin(), of_rank.end());
+        for (const auto &of_rank : dealii::Utilities::MPI::all_gather(nodes.communicator, array.values))
+          all.values.insert(all.values.end(), of_rank.begin(), of_rank.end());
+      }
+  }
+
+  template <int dim>
+  void CarriedState<dim>::fit(const Problem<dim> &problem)
+  {
+    if (n_smooth == 0)
+      return;
+    const Families<dim>   &families = *problem.discretisation.families;
+    const BondList        &list     = problem.force->body_bonds();
+    const auto             is_cut   = problem.failure.precrack_test();
+    const std::size_t      first    = n_places + n_constant;
+    std::vector<Numbers *> of_node(families.n_owned());
+    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
+      if (!numbers_of_cell[c].empty())
+        of_node[problem.body.nodes->node_of_cell[c]] = &numbers_of_cell[c];
+    NodalVector values(families.make_partitioner(n_smooth));
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      for (std::size_t k = 0; k < n_smooth; ++k)
+        values.local_element(n_smooth * i + k) = (*of_node[i])[first + k];
+    values.update_ghost_values();
+
+    using Matrix = Eigen::Matrix<double, n_coefficients, n_coefficients>;
+    struct Equations
+    {
+      Matrix                                                moments = Matrix::Zero();
+      Eigen::Matrix<double, n_coefficients, Eigen::Dynamic> right;
+    };
+    std::vector<Equations> equations(families.n_owned());
+    for (auto &of : equations)
+      of.right.setZero(n_coefficients, n_smooth);
+    const auto add = [&](const LocalIndex i, const LocalIndex j) {
+      const dealii::Tensor<1, dim> d = (families.position[j] - families.position[i]) / families.spacing[i];
+      const double                 weight = 1. / d.norm_square();
+      const Terms<dim>             p      = terms(d);
+      equations[i].moments.noalias() += weight * p * p.transpose();
+      for (std::size_t k = 0; k < n_smooth; ++k)
+        equations[i].right.col(k) +=
+          weight * (values.local_element(n_smooth * j + k) - values.local_element(n_smooth * i + k)) * p;
+    };
+    for (LocalIndex i = 0; i < list.n_rows(); ++i)
+      for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
+        {
+          const LocalIndex j = list.neighbour[slot];
+          if (j == i || (is_cut && is_cut(families.position[i], families.position[j])))
+            continue;
+          add(i, j);
+          if (j < families.n_owned())
+            add(j, i);
+        }
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      {
+        if ((*of_node[i])[is_kept] > 0)
+          continue;
+        // Scaled to a unit diagonal, as fits to few points, all on a line, may be singular.
+        Terms<dim> scale = equations[i].moments.diagonal();
+        for (unsigned int k = 0; k < n_coefficients; ++k)
+          scale[k] = scale[k] > 0 ? 1. / std::sqrt(scale[k]) : 0.;
+        const Eigen::MatrixXd scaled = scale.asDiagonal() * equations[i].moments * scale.asDiagonal();
+        // The coefficients are of lengths over the spacing.
+        const Terms<dim> unit         = terms<dim>([&] {
+          dealii::Tensor<1, dim> result;
+          for (int d = 0; d < dim; ++d)
+            result[d] = 1. / families.spacing[i];
+          return result;
+        }());
+        double          *coefficients = of_node[i]->data() + first + n_smooth;
+        for (std::size_t k = 0; k < n_smooth; ++k)
+          {
+            const Eigen::VectorXd right    = scale.asDiagonal() * equations[i].right.col(k);
+            const Eigen::VectorXd solution = solve_semidefinite(scaled, right, rank_tolerance);
+            for (unsigned int c = 0; c < n_coefficients; ++c)
+              coefficients[k * n_coefficients + c] = unit[c] * scale[c] * solution[c];
+          }
+      }
+  }
+
+  template <int dim>
+  typename CarriedState<dim>::Numbers CarriedState<dim>::of_child(const Numbers                &parent,
+                                                                  const dealii::Tensor<1, dim> &d) const
+  {
+    Numbers           result = parent;
+    const Terms<dim>  p      = terms(d);
+    const std::size_t first  = n_places + n_constant;
+    result[is_quiet]         = 0.;
+    result[halvings] += 1.;
+    for (std::size_t k = 0; k < n_smooth; ++k)
+      {
+        double *coefficients = result.data() + first + n_smooth + k * n_coefficients;
+        for (unsigned int c = 0; c < n_coefficients; ++c)
+          result[first + k] += coefficients[c] * p[c];
+        // The same polynomial around the centroid of the half.
+        unsigned int            c = dim;
+        std::array<double, dim> slope{};
+        for (int a = 0; a < dim; ++a)
+          for (int b = a; b < dim; ++b, ++c)
+            {
+              slope[a] += coefficients[c] * d[b];
+              slope[b] += coefficients[c] * d[a];
+            }
+        for (int a = 0; a < dim; ++a)
+          coefficients[a] += slope[a];
+      }
+    return result;
+  }
+
+  template <int dim>
+  void
+  CarriedState<dim>::halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell) const
+  {
+    const std::size_t        first  = n_places + n_constant;
+    const dealii::Point<dim> middle = parent->barycenter();
+    std::vector<double>      excess(n_smooth, 0.);
+    double                   volume = 0;
+    for (const auto &child : parent->child_iterators())
+      {
+        Numbers     &half    = by_cell[child->active_cell_index()];
+        const double measure = child->measure();
+        half                 = of_child(numbers, child->barycenter() - middle);
+        volume += measure;
+        for (std::size_t k = 0; k < n_smooth; ++k)
+          excess[k] += measure * (half[first + k] - numbers[first + k]);
+      }
+    for (const auto &child : parent->child_iterators())
+      for (std::size_t k = 0; k < n_smooth; ++k)
+        by_cell[child->active_cell_index()][first + k] -= excess[k] / volume;
+  }
+
+  template <int dim>
+  typename CarriedState<dim>::Numbers CarriedState<dim>::join(const Cell &parent) const
+  {
+    const std::size_t first = n_places + n_constant;
+    Numbers           result(first + n_smooth * (1 + n_coefficients), 0.);
+    double            volume = 0;
+    for (const auto &child : parent->child_iterators())
+      {
+        const Numbers &half    = numbers_of_cell[child->active_cell_index()];
+        const double   measure = child->measure();
+        volume += measure;
+        for (std::size_t k = 0; k < result.size(); ++k)
+          result[k] = k < first ? std::max(result[k], half[k]) : result[k] + measure * half[k];
+      }
+    for (std::size_t k = first; k < result.size(); ++k)
+      result[k] /= volume;
+    result[is_quiet] = 0.;
+    result[halvings] -= 1.;
+    return result;
+  }
+
+  template <int dim>
+  std::vector<bool> CarriedState<dim>::blocked_cells(const dealii::Triangulation<dim> &mesh) const
+  {
+    std::vector<char> blocked(mesh.n_active_cells(), 0);
+    const auto        exchange = [&] {
+      dealii::GridTools::exchange_cell_data_to_ghosts<char, dealii::Triangulation<dim>>(
+        mesh,
+        [&](const auto &cell) { return blocked[cell->active_cell_index()]; },
+        [&](const auto &cell, const char value) { blocked[cell->active_cell_index()] = value; });
+    };
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        blocked[cell->active_cell_index()] = numbers_of_cell[cell->active_cell_index()][is_kept] > 0;
+    for (GlobalIndex n_new = 1; n_new > 0;)
+      {
+        exchange();
+        // p4est halves what is larger than a neighbour that is halved, and touches it with a vertex.
+        std::vector<int> lowest(mesh.n_vertices(), std::numeric_limits<int>::max());
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (!cell->is_artificial() && blocked[cell->active_cell_index()] != 0)
+            for (const unsigned int v : cell->vertex_indices())
+              lowest[cell->vertex_index(v)] = std::min(lowest[cell->vertex_index(v)], cell->level());
+        n_new = 0;
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (cell->is_locally_owned() && blocked[cell->active_cell_index()] == 0)
+            for (const unsigned int v : cell->vertex_indices())
+              if (lowest[cell->vertex_index(v)] < cell->level())
+                {
+                  blocked[cell->active_cell_index()] = 1;
+                  ++n_new;
+                  break;
+                }
+        n_new = sum(n_new, mesh.get_communicator());
+      }
+    return std::vector<bool>(blocked.begin(), blocked.end());
+  }
+
+  template <int dim>
+  GlobalIndex CarriedState<dim>::flag(Mesh<dim>           &mesh,
+                                      const MeshNeed<dim> &need,
+                                      const unsigned int   levels,
+                                      const bool           joins) const
+  {
+    const auto  blocked  = blocked_cells(mesh.triangulation);
+    GlobalIndex n_halved = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const Numbers &numbers = numbers_of_cell[cell->active_cell_index()];
+          const bool     is_near = need.is_near(cell);
+          if (is_near && numbers[halvings] < levels && !blocked[cell->active_cell_index()])
+            {
+              cell->set_refine_flag();
+              ++n_halved;
+            }
+          else if (joins && !is_near && numbers[halvings] > 0 && numbers[is_quiet] > 0 &&
+                   numbers[is_kept] == 0)
+            cell->set_coarsen_flag();
+        }
+    return sum(n_halved, mesh.triangulation.get_communicator());
+  }
+
+  template <int dim>
+  bool CarriedState<dim>::is_urgent(const Mesh<dim>     &mesh,
+                                    const MeshNeed<dim> &need,
+                                    const unsigned int   levels) const
+  {
+    const auto  blocked = blocked_cells(mesh.triangulation);
+    GlobalIndex n       = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && !blocked[cell->active_cell_index()] &&
+          numbers_of_cell[cell->active_cell_index()][halvings] < levels && need.is_urgent(cell))
+        ++n;
+    return sum(n, mesh.triangulation.get_communicator()) > 0;
+  }
+
+  template <int dim>
+  bool CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
+  {
+    auto      &triangulation = mesh.triangulation;
+    const auto n_before      = triangulation.n_global_active_cells();
+    bool       has_changed   = false;
+    for (unsigned int pass = 0; pass <= levels; ++pass)
+      {
+        const GlobalIndex n_halved = flag(mesh, need, levels, pass == 0);
+        if (pass > 0 && n_halved == 0)
+          break;
+        const auto pack = [&](const Cell &cell, const auto status) {
+          return to_bytes(status == dealii::parallel::TriangulationBase<dim>::CELL_COARSEN ?
+                            join(cell) :
+                            numbers_of_cell[cell->active_cell_index()]);
+        };
+        const unsigned int handle = triangulation.register_data_attach(pack, false);
+        refine_marked(mesh);
+        has_changed = has_changed || n_halved > 0;
+        std::vector<Numbers> by_cell(triangulation.n_active_cells());
+        triangulation.notify_ready_to_unpack(
+          handle, [&](const Cell &cell, const auto status, const auto &bytes) {
+            const Numbers numbers = to_numbers(bytes);
+            if (status == dealii::parallel::TriangulationBase<dim>::CELL_REFINE)
+              halve(cell, numbers, by_cell);
+            else
+              by_cell[cell->active_cell_index()] = numbers;
+          });
+        numbers_of_cell.swap(by_cell);
+      }
+    return has_changed || triangulation.n_global_active_cells() != n_before;
+  }
+
+  template <int dim>
+  std::vector<double> CarriedState<dim>::depth_on(const Body<dim> &body) const
+  {
+    std::vector<double> result(body.nodes->size());
+    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
+      if (const LocalIndex i = body.nodes->node_of_cell[c]; i != dealii::numbers::invalid_unsigned_int)
+        result[i] = numbers_of_cell[c][halvings];
+    return result;
+  }
+
+  template <int dim>
+  Checkpoint CarriedState<dim>::on(const Body<dim> &body, const CheckpointNodes &nodes) const
+  {
+    Checkpoint result;
+    result.header = state.header;
+    result.sums   = state.sums;
+    for (const auto &[name, array] : state.node_arrays)
+      {
+        result.node_arrays[name] = {array.unit, array.width, {}, array.transfer};
+        result.node_arrays[name].values.resize(std::size_t(array.width) * nodes.n_owned, 0.);
+      }
+    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
+      if (const LocalIndex i = body.nodes->node_of_cell[c]; i != dealii::numbers::invalid_unsigned_int)
+        {
+          auto from = numbers_of_cell[c].begin() + n_places;
+          for (const auto *names : {&constant, &smooth})
+            for (const std::string &name : *names)
+              {
+                NodeArray &array = result.node_arrays.at(name);
+                std::copy_n(from, array.width, array.values.begin() + std::size_t(array.width) * i);
+                from += array.width;
+              }
+        }
+    std::unordered_map<std::uint64_t, LocalIndex> local;
+    for (LocalIndex i = 0; i < nodes.key.size(); ++i)
+      local[nodes.key[i]] = i;
+    for (const auto &[name, all] : bonds)
+      {
+        const unsigned int width = state.bond_arrays.at(name).width;
+        BondArray         &array = result.bond_arrays[name];
+        array.unit               = state.bond_arrays.at(name).unit;
+        array.width              = width;
+        for (std::size_t b = 0; 2 * b < all.keys.size(); ++b)
+          {
+            const auto one = local.find(all.keys[2 * b]), other = local.find(all.keys[2 * b + 1]);
+            if (one == local.end() || other == local.end() ||
+                std::min(one->second, other->second) >= nodes.n_owned)
+              continue;
+            array.bonds.push_back(
+              {std::min(one->second, other->second), std::max(one->second, other->second)});
+            array.values.insert(
+              array.values.end(), all.values.begin() + width * b, all.values.begin() + width * (b + 1));
+          }
+      }
+    return result;
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(CarriedState)
+} // namespace perideal

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/problem/mesh_need.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace perideal
+{
+  namespace
+  {
+    template <int dim>
+    using Places = std::vector<std::pair<dealii::Point<dim>, double>>;
+
+    /// Points along the edges of precracks that lie in the body: the ends of lines, the sides of polygons.
+    template <int dim>
+    std::vector<dealii::Point<dim>> edges_of(const std::vector<Precrack<dim>> &cracks, const double spacing)
+    {
+      std::vector<dealii::Point<dim>> result;
+      for (const Precrack<dim> &crack : cracks)
+        for (const Facet<dim> &facet : crack.parts())
+          {
+            const auto &corners = facet.corners();
+            for (std::size_t k = 0; k < corners.size(); ++k)
+              {
+                const dealii::Tensor<1, dim> side = corners[(k + 1) % corners.size()] - corners[k];
+                const auto n = dim == 2 ? 1u : static_cast<unsigned int>(std::ceil(side.norm() / spacing));
+                for (unsigned int step = 0; step < n; ++step)
+                  result.push_back(corners[k] + (static_cast<double>(step) / n) * side);
+              }
+          }
+      return result;
+    }
+
+    /// Boxes around places of all ranks, as far as a factor of their reach. Collective.
+    template <int dim>
+    dealii::RTree<dealii::BoundingBox<dim>>
+    boxes_around(const Places<dim> &mine, const double factor, MPI_Comm communicator)
+    {
+      std::vector<dealii::BoundingBox<dim>> boxes;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+        for (const auto &[middle, reach] : of_rank)
+          {
+            dealii::BoundingBox<dim> box({middle, middle});
+            box.extend(factor * reach);
+            boxes.push_back(box);
+          }
+      return dealii::pack_rtree(boxes);
+    }
+  } // namespace
+
+  template <int dim>
+  MeshNeed<dim>::MeshNeed(const Problem<dim> &problem, const std::vector<double> &depth, const double time)
+    : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
+    , time(time)
+  {
+    const AdaptationParameters &adaptation   = problem.parameters.adaptation;
+    const Nodes<dim>           &nodes        = *problem.body.nodes;
+    const MPI_Comm              communicator = nodes.communicator;
+    const auto                  reach_of     = [&](const LocalIndex i) {
+      return adaptation.reach * std::ldexp(nodes.spacing[i], static_cast<int>(depth[i] - adaptation.levels));
+    };
+    Places<dim> places;
+    is_quiet.assign(nodes.size(), true);
+    if (problem.force)
+      {
+        const std::vector<double> utilisation = problem.force->utilisation();
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          {
+            is_quiet[i] = utilisation[i] < adaptation.coarsen_below;
+            if (utilisation[i] >= adaptation.refine_from)
+              places.emplace_back(nodes.position[i], reach_of(i));
+          }
+      }
+    double smallest = std::numeric_limits<double>::max();
+    for (LocalIndex i = 0; i < nodes.size(); ++i)
+      smallest = std::min(smallest, reach_of(i));
+    smallest = dealii::Utilities::MPI::min(smallest, communicator);
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      for (const auto &point : edges_of(problem.failure.precracks, smallest))
+        places.emplace_back(point, smallest);
+    within_reach = boxes_around<dim>(places, 1., communicator);
+    urgent       = boxes_around<dim>(places, 0.5, communicator);
+  }
+
+  template <int dim>
+  bool MeshNeed<dim>::is_in(const Boxes &boxes, const Cell &cell) const
+  {
+    namespace bgi = boost::geometry::index;
+    return boxes.qbegin(bgi::intersects(cell->bounding_box())) != boxes.qend() ||
+           (where.is_present() && where.value(cell->center(), time) != 0.);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(MeshNeed)
+} // namespace perideal
