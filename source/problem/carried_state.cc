@@ -77,8 +77,10 @@ namespace perideal
     : state(std::move(given))
   {
     const Nodes<dim> &nodes = *problem.body.nodes;
-    for (const auto &[name, array] : state.node_arrays)
+    for (auto &[name, array] : state.node_arrays)
       {
+        // Where only the first nodes have values, or none has, zeros follow.
+        array.values.resize(std::size_t(array.width) * nodes.size(), 0.);
         const bool is_smooth = array.transfer == Transfer::smooth;
         (is_smooth ? smooth : constant).push_back(name);
         (is_smooth ? n_smooth : n_constant) += array.width;
