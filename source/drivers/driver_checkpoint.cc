@@ -147,7 +147,11 @@ namespace perideal
       {
         depth = change.state->depth_on(problem.body);
         if (change.state->has_begun())
-          resumed = std::make_unique<Checkpoint>(change.state->on(problem.body, checkpoint_nodes(problem)));
+          {
+            resumed = std::make_unique<Checkpoint>(change.state->on(problem.body, checkpoint_nodes(problem)));
+            // Cells that were halved or joined do not have those of the cells before.
+            resumed->node_arrays.at("halvings").values = depth;
+          }
       }
     change = {};
     if (problem.parameters.adaptation.is_by_need())
@@ -160,13 +164,12 @@ namespace perideal
   }
 
   template <int dim>
-  bool Driver<dim>::look_at_first_mesh()
+  void Driver<dim>::look_at_first_mesh()
   {
     build();
-    change.need = std::make_unique<MeshNeed<dim>>(problem, depth, 0.);
-    change.state =
-      std::make_unique<CarriedState<dim>>(problem, Checkpoint(), checkpoint_nodes(problem), depth);
-    return change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels);
+    change.need  = std::make_unique<MeshNeed<dim>>(problem, depth, 0.);
+    change.state = std::make_unique<CarriedState<dim>>(
+      problem, Checkpoint(), checkpoint_nodes(problem), depth, change.need->is_quiet);
   }
 
   template <int dim>
@@ -186,8 +189,8 @@ namespace perideal
       {
         Checkpoint state                 = state_after(step, time);
         state.header["imbalance before"] = imbalance;
-        change.state =
-          std::make_unique<CarriedState<dim>>(problem, std::move(state), checkpoint_nodes(problem), depth);
+        change.state                     = std::make_unique<CarriedState<dim>>(
+          problem, std::move(state), checkpoint_nodes(problem), depth, change.need->is_quiet);
         if (change.state->is_urgent(mesh, *change.need, problem.parameters.adaptation.levels))
           {
             change.state->fit(problem);

@@ -73,7 +73,8 @@ namespace perideal
   CarriedState<dim>::CarriedState(const Problem<dim>        &problem,
                                   Checkpoint               &&given,
                                   const CheckpointNodes     &keyed,
-                                  const std::vector<double> &depth)
+                                  const std::vector<double> &depth,
+                                  const std::vector<bool>   &quiet)
     : state(std::move(given))
   {
     const Nodes<dim> &nodes = *problem.body.nodes;
@@ -89,7 +90,7 @@ namespace perideal
     std::vector<Numbers>    of_node(nodes.size());
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        of_node[i] = {failed[i] ? 1. : 0., 0., depth[i]};
+        of_node[i] = {failed[i] ? 1. : 0., quiet[i] ? 1. : 0., depth[i]};
         for (const auto *names : {&constant, &smooth})
           for (const std::string &name : *names)
             {
@@ -340,11 +341,9 @@ namespace perideal
   }
 
   template <int dim>
-  bool CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
+  void CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
   {
-    auto      &triangulation = mesh.triangulation;
-    const auto n_before      = triangulation.n_global_active_cells();
-    bool       has_changed   = false;
+    auto &triangulation = mesh.triangulation;
     for (unsigned int pass = 0; pass <= levels; ++pass)
       {
         const GlobalIndex n_halved = flag(mesh, need, levels, pass == 0);
@@ -357,7 +356,6 @@ namespace perideal
         };
         const unsigned int handle = triangulation.register_data_attach(pack, false);
         refine_marked(mesh);
-        has_changed = has_changed || n_halved > 0;
         std::vector<Numbers> by_cell(triangulation.n_active_cells());
         triangulation.notify_ready_to_unpack(
           handle, [&](const Cell &cell, const auto status, const auto &bytes) {
@@ -369,7 +367,6 @@ namespace perideal
           });
         numbers_of_cell.swap(by_cell);
       }
-    return has_changed || triangulation.n_global_active_cells() != n_before;
   }
 
   template <int dim>

@@ -58,9 +58,8 @@ namespace perideal
     /// @throws InputError as run() does before it solves, ComputationError where the solver stops.
     ErrorEstimate estimate(const double tolerance);
 
-    /// Looks where the mesh is to be finer before the first step; returns whether it is to change.
-    /// Collective.
-    bool look_at_first_mesh();
+    /// Looks where the mesh is to be finer before the first step, and leaves that in change. Collective.
+    void look_at_first_mesh();
 
     /// Before run(): what it goes on from; after it, where the mesh is to change: what goes on.
     MeshChange<dim> change;

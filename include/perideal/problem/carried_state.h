@@ -28,10 +28,12 @@ namespace perideal
     /// Takes the state of the problem, whose force has bonds. Collective.
     /// @param keyed the nodes of the state
     /// @param depth how often the cell of each owned node was halved
+    /// @param quiet whether it may be joined with its neighbours, by owned node
     CarriedState(const Problem<dim>        &problem,
                  Checkpoint               &&state,
                  const CheckpointNodes     &keyed,
-                 const std::vector<double> &depth);
+                 const std::vector<double> &depth,
+                 const std::vector<bool>   &quiet);
 
     /// Fits polynomials to smooth fields, without which no cell may be halved; the problem is not needed any
     /// more then. Collective.
@@ -43,8 +45,7 @@ namespace perideal
     /// Halves and joins cells of a mesh on which nothing lives any more, until each is as small as it is
     /// needed and may be. Collective.
     /// @param levels how often a cell may be halved
-    /// @return whether the mesh has changed
-    bool change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels);
+    void change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels);
 
     /// Whether change() would halve a cell that is to be small now. Collective.
     bool is_urgent(const Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels) const;
