@@ -366,4 +366,7 @@ set(perideal_sources
   application/reference.cc
   problem/carried_state.cc
   problem/mesh_need.cc
+  drivers/mesh_adaptation.cc
+  problem/carried_state_mesh.cc
+  problem/present_state.cc
 )

@@ -148,8 +148,9 @@ namespace perideal
         else
           {
             const auto driver = create_driver(problem);
-            driver->look_at_first_mesh();
-            change = std::move(driver->change);
+            driver->build();
+            driver->adaptation.look_at_first_mesh();
+            change = std::move(driver->adaptation.change);
           }
         mesh = std::move(problem.body.mesh);
       }
@@ -165,14 +166,14 @@ namespace perideal
             if (change.state && change.state->has_begun())
               time = change.state->time();
             table.add(problem.run, *problem.body.mesh, "t =", "time", time);
-            problem.run.adaptation = table.rows;
-            const auto driver      = create_driver(problem);
-            driver->change         = std::move(change);
+            problem.run.adaptation    = table.rows;
+            const auto driver         = create_driver(problem);
+            driver->adaptation.change = std::move(change);
             driver->run();
-            if (!driver->change.state)
+            if (!driver->adaptation.change.state)
               return;
             table.rows = problem.run.adaptation;
-            change     = std::move(driver->change);
+            change     = std::move(driver->adaptation.change);
             mesh       = std::move(problem.body.mesh);
             earlier    = problem.run.record();
           }

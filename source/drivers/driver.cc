@@ -33,7 +33,8 @@ namespace perideal
 
   template <int dim>
   Driver<dim>::Driver(Problem<dim> &problem, const RunKind &kind)
-    : problem(problem)
+    : adaptation(problem)
+    , problem(problem)
     , kind(kind)
   {
     problem.lasting.add_value("largest energy", largest_energy);
@@ -45,8 +46,8 @@ namespace perideal
     create_output_directory(problem.parameters.output_directory, problem.run.communicator);
     const DirectoryLock lock(problem.parameters.output_directory, problem.run.communicator);
     build();
-    const bool goes_on = change.state && change.state->has_begun();
-    take_change();
+    const bool goes_on = adaptation.goes_on();
+    resumed            = adaptation.begin();
     if (problem.parameters.checkpoints.restart && !goes_on)
       open_checkpoint();
     prepare();
@@ -89,7 +90,6 @@ namespace perideal
       return;
     problem.build();
     prepare_scene();
-    depth.assign(problem.body.nodes->size(), 0.);
     is_built = true;
   }
 

@@ -94,7 +94,7 @@ namespace perideal
         // A mesh that adapts keeps the step that its smallest cells will take.
         const bool adapts = problem.parameters.adaptation.is_by_need();
         steps.choose(solver,
-                     this->largest_stable_step() * (adapts ? this->smallest_share() : 1.),
+                     this->largest_stable_step() * (adapts ? this->adaptation.smallest_share() : 1.),
                      forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping");
         if (resumed)
           steps.resume(solver, resumed->template get<double>("time step"));
@@ -173,8 +173,8 @@ namespace perideal
         register_state();
         // Energies of the mesh before, where this one goes on from it.
         std::optional<double> imbalance_before;
-        if (resumed && resumed->header.contains("imbalance before"))
-          imbalance_before = resumed->template get<double>("imbalance before");
+        if (resumed && resumed->header.contains(MeshAdaptation<dim>::imbalance_before))
+          imbalance_before = resumed->template get<double>(MeshAdaptation<dim>::imbalance_before);
         if (resumed)
           this->resume_checkpoint();
         if (!problem.loading.supports->hold_nodes())
@@ -207,7 +207,7 @@ namespace perideal
                 {
                   const double switched = dynamics->energy().imbalance() - *imbalance_before;
                   dynamics->add_switched(switched);
-                  this->note_switched(switched);
+                  this->adaptation.note_switched(switched);
                   imbalance_before.reset();
                 }
             }
@@ -227,9 +227,8 @@ namespace perideal
               save();
             if (stops)
               return StepsEnd::stopped;
-            if (problem.parameters.adaptation.is_by_need() && n + 1 < steps.number &&
-                (n + 1) % problem.parameters.adaptation.interval == 0 &&
-                this->mesh_changes(dynamics->step(), dynamics->time(), dynamics->energy().imbalance()))
+            if (n + 1 < steps.number && (n + 1) % problem.parameters.adaptation.interval == 0 &&
+                this->adaptation.is_due(dynamics->step(), dynamics->time(), dynamics->energy().imbalance()))
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;

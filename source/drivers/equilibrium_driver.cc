@@ -174,8 +174,7 @@ namespace perideal
               this->save_checkpoint(done, control ? controlled->time() : time_of(done));
             if (stops && !is_done())
               return StepsEnd::stopped;
-            if (problem.parameters.adaptation.is_by_need() && !is_done() &&
-                this->mesh_changes(done, control ? controlled->time() : time_of(done), 0.))
+            if (!is_done() && this->adaptation.is_due(done, control ? controlled->time() : time_of(done), 0.))
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;
@@ -185,7 +184,6 @@ namespace perideal
       {
         return static_cast<double>(number) / solver.load_steps;
       }
-
       bool is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
 
       void take_load_step(const unsigned int number)
@@ -319,12 +317,10 @@ namespace perideal
       {
         done                 = resumed->template get<unsigned int>("step");
         const double time    = resumed->template get<double>("time");
-        const bool   changes = resumed->header.contains("imbalance before");
+        const bool   changes = resumed->header.contains(MeshAdaptation<dim>::imbalance_before);
         this->resume_checkpoint();
         apply_loads(time);
-        path->resume(problem.state.external_force, time);
-        if (changes)
-          this->note_switched(path->switch_mesh());
+        this->adaptation.note_switched(path->resume(problem.state.external_force, time, changes));
       }
 
       const SolverParameters                   &solver;
@@ -338,11 +334,9 @@ namespace perideal
       std::unique_ptr<LoadControl<dim>> control;
       std::unique_ptr<ProgressBar>      progress;
       nlohmann::ordered_json            solver_report;
-      /// Load steps.
-      unsigned int done = 0;
-      Heating<dim> heating;
-      /// [J]
-      double work_of_heating = 0;
+      unsigned int                      done = 0; // load steps
+      Heating<dim>                      heating;
+      double                            work_of_heating = 0; // [J]
     };
   } // namespace
 

@@ -1,60 +1,22 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/base/least_squares.h>
-#include <perideal/mesh/adaptation.h>
 #include <perideal/problem/carried_state.h>
+#include <perideal/reconstruction/quadratic_terms.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/grid_tools.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 #include <unordered_map>
 
 namespace perideal
 {
   namespace
   {
-    using dealii::Utilities::MPI::sum;
-
     /// Eigenvalues of normal equations, over the largest, that count as zero.
     constexpr double rank_tolerance = 1e-8;
-
-    template <int dim>
-    using Terms = Eigen::Matrix<double, dim + dim *(dim + 1) / 2, 1>;
-
-    /// d, and the products of its components.
-    template <int dim>
-    Terms<dim> terms(const dealii::Tensor<1, dim> &d)
-    {
-      Terms<dim>   result;
-      unsigned int k = dim;
-      for (int a = 0; a < dim; ++a)
-        {
-          result[a] = d[a];
-          for (int b = a; b < dim; ++b)
-            result[k++] = d[a] * d[b];
-        }
-      return result;
-    }
-
-    std::vector<char> to_bytes(const std::vector<double> &numbers)
-    {
-      std::vector<char> result(numbers.size() * sizeof(double));
-      std::memcpy(result.data(), numbers.data(), result.size());
-      return result;
-    }
-
-    template <typename Range>
-    std::vector<double> to_numbers(const Range &bytes)
-    {
-      std::vector<double> result(bytes.size() / sizeof(double));
-      std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char *>(result.data()));
-      return result;
-    }
 
     /// Whether a bond of an owned node softened or broke.
     std::vector<bool> failed_nodes(const Checkpoint &state, const LocalIndex n_owned)
@@ -149,7 +111,7 @@ namespace perideal
     const auto add = [&](const LocalIndex i, const LocalIndex j) {
       const dealii::Tensor<1, dim> d = (families.position[j] - families.position[i]) / families.spacing[i];
       const double                 weight = 1. / d.norm_square();
-      const Terms<dim>             p      = terms(d);
+      const QuadraticTerms<dim>    p      = quadratic_terms(d);
       equations[i].moments.noalias() += weight * p * p.transpose();
       for (std::size_t k = 0; k < n_smooth; ++k)
         equations[i].right.col(k) +=
@@ -170,18 +132,18 @@ namespace perideal
         if ((*of_node[i])[is_kept] > 0)
           continue;
         // Scaled to a unit diagonal, as fits to few points, all on a line, may be singular.
-        Terms<dim> scale = equations[i].moments.diagonal();
+        QuadraticTerms<dim> scale = equations[i].moments.diagonal();
         for (unsigned int k = 0; k < n_coefficients; ++k)
           scale[k] = scale[k] > 0 ? 1. / std::sqrt(scale[k]) : 0.;
         const Eigen::MatrixXd scaled = scale.asDiagonal() * equations[i].moments * scale.asDiagonal();
         // The coefficients are of lengths over the spacing.
-        const Terms<dim> unit         = terms<dim>([&] {
+        const QuadraticTerms<dim> unit         = quadratic_terms<dim>([&] {
           dealii::Tensor<1, dim> result;
           for (int d = 0; d < dim; ++d)
             result[d] = 1. / families.spacing[i];
           return result;
         }());
-        double          *coefficients = of_node[i]->data() + first + n_smooth;
+        double                   *coefficients = of_node[i]->data() + first + n_smooth;
         for (std::size_t k = 0; k < n_smooth; ++k)
           {
             const Eigen::VectorXd right    = scale.asDiagonal() * equations[i].right.col(k);
@@ -189,183 +151,6 @@ namespace perideal
             for (unsigned int c = 0; c < n_coefficients; ++c)
               coefficients[k * n_coefficients + c] = unit[c] * scale[c] * solution[c];
           }
-      }
-  }
-
-  template <int dim>
-  typename CarriedState<dim>::Numbers CarriedState<dim>::of_child(const Numbers                &parent,
-                                                                  const dealii::Tensor<1, dim> &d) const
-  {
-    Numbers           result = parent;
-    const Terms<dim>  p      = terms(d);
-    const std::size_t first  = n_places + n_constant;
-    result[is_quiet]         = 0.;
-    result[halvings] += 1.;
-    for (std::size_t k = 0; k < n_smooth; ++k)
-      {
-        double *coefficients = result.data() + first + n_smooth + k * n_coefficients;
-        for (unsigned int c = 0; c < n_coefficients; ++c)
-          result[first + k] += coefficients[c] * p[c];
-        // The same polynomial around the centroid of the half.
-        unsigned int            c = dim;
-        std::array<double, dim> slope{};
-        for (int a = 0; a < dim; ++a)
-          for (int b = a; b < dim; ++b, ++c)
-            {
-              slope[a] += coefficients[c] * d[b];
-              slope[b] += coefficients[c] * d[a];
-            }
-        for (int a = 0; a < dim; ++a)
-          coefficients[a] += slope[a];
-      }
-    return result;
-  }
-
-  template <int dim>
-  void
-  CarriedState<dim>::halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell) const
-  {
-    const std::size_t        first  = n_places + n_constant;
-    const dealii::Point<dim> middle = parent->barycenter();
-    std::vector<double>      excess(n_smooth, 0.);
-    double                   volume = 0;
-    for (const auto &child : parent->child_iterators())
-      {
-        Numbers     &half    = by_cell[child->active_cell_index()];
-        const double measure = child->measure();
-        half                 = of_child(numbers, child->barycenter() - middle);
-        volume += measure;
-        for (std::size_t k = 0; k < n_smooth; ++k)
-          excess[k] += measure * (half[first + k] - numbers[first + k]);
-      }
-    for (const auto &child : parent->child_iterators())
-      for (std::size_t k = 0; k < n_smooth; ++k)
-        by_cell[child->active_cell_index()][first + k] -= excess[k] / volume;
-  }
-
-  template <int dim>
-  typename CarriedState<dim>::Numbers CarriedState<dim>::join(const Cell &parent) const
-  {
-    const std::size_t first = n_places + n_constant;
-    Numbers           result(first + n_smooth * (1 + n_coefficients), 0.);
-    double            volume = 0;
-    for (const auto &child : parent->child_iterators())
-      {
-        const Numbers &half    = numbers_of_cell[child->active_cell_index()];
-        const double   measure = child->measure();
-        volume += measure;
-        for (std::size_t k = 0; k < result.size(); ++k)
-          result[k] = k < first ? std::max(result[k], half[k]) : result[k] + measure * half[k];
-      }
-    for (std::size_t k = first; k < result.size(); ++k)
-      result[k] /= volume;
-    result[is_quiet] = 0.;
-    result[halvings] -= 1.;
-    return result;
-  }
-
-  template <int dim>
-  std::vector<bool> CarriedState<dim>::blocked_cells(const dealii::Triangulation<dim> &mesh) const
-  {
-    std::vector<char> blocked(mesh.n_active_cells(), 0);
-    const auto        exchange = [&] {
-      dealii::GridTools::exchange_cell_data_to_ghosts<char, dealii::Triangulation<dim>>(
-        mesh,
-        [&](const auto &cell) { return blocked[cell->active_cell_index()]; },
-        [&](const auto &cell, const char value) { blocked[cell->active_cell_index()] = value; });
-    };
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
-        blocked[cell->active_cell_index()] = numbers_of_cell[cell->active_cell_index()][is_kept] > 0;
-    for (GlobalIndex n_new = 1; n_new > 0;)
-      {
-        exchange();
-        // p4est halves what is larger than a neighbour that is halved, and touches it with a vertex.
-        std::vector<int> lowest(mesh.n_vertices(), std::numeric_limits<int>::max());
-        for (const auto &cell : mesh.active_cell_iterators())
-          if (!cell->is_artificial() && blocked[cell->active_cell_index()] != 0)
-            for (const unsigned int v : cell->vertex_indices())
-              lowest[cell->vertex_index(v)] = std::min(lowest[cell->vertex_index(v)], cell->level());
-        n_new = 0;
-        for (const auto &cell : mesh.active_cell_iterators())
-          if (cell->is_locally_owned() && blocked[cell->active_cell_index()] == 0)
-            for (const unsigned int v : cell->vertex_indices())
-              if (lowest[cell->vertex_index(v)] < cell->level())
-                {
-                  blocked[cell->active_cell_index()] = 1;
-                  ++n_new;
-                  break;
-                }
-        n_new = sum(n_new, mesh.get_communicator());
-      }
-    return std::vector<bool>(blocked.begin(), blocked.end());
-  }
-
-  template <int dim>
-  GlobalIndex CarriedState<dim>::flag(Mesh<dim>           &mesh,
-                                      const MeshNeed<dim> &need,
-                                      const unsigned int   levels,
-                                      const bool           joins) const
-  {
-    const auto  blocked  = blocked_cells(mesh.triangulation);
-    GlobalIndex n_halved = 0;
-    for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const Numbers &numbers = numbers_of_cell[cell->active_cell_index()];
-          const bool     is_near = need.is_near(cell);
-          if (is_near && numbers[halvings] < levels && !blocked[cell->active_cell_index()])
-            {
-              cell->set_refine_flag();
-              ++n_halved;
-            }
-          else if (joins && !is_near && numbers[halvings] > 0 && numbers[is_quiet] > 0 &&
-                   numbers[is_kept] == 0)
-            cell->set_coarsen_flag();
-        }
-    return sum(n_halved, mesh.triangulation.get_communicator());
-  }
-
-  template <int dim>
-  bool CarriedState<dim>::is_urgent(const Mesh<dim>     &mesh,
-                                    const MeshNeed<dim> &need,
-                                    const unsigned int   levels) const
-  {
-    const auto  blocked = blocked_cells(mesh.triangulation);
-    GlobalIndex n       = 0;
-    for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && !blocked[cell->active_cell_index()] &&
-          numbers_of_cell[cell->active_cell_index()][halvings] < levels && need.is_urgent(cell))
-        ++n;
-    return sum(n, mesh.triangulation.get_communicator()) > 0;
-  }
-
-  template <int dim>
-  void CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
-  {
-    auto &triangulation = mesh.triangulation;
-    for (unsigned int pass = 0; pass <= levels; ++pass)
-      {
-        const GlobalIndex n_halved = flag(mesh, need, levels, pass == 0);
-        if (pass > 0 && n_halved == 0)
-          break;
-        const auto pack = [&](const Cell &cell, const auto status) {
-          return to_bytes(status == dealii::parallel::TriangulationBase<dim>::CELL_COARSEN ?
-                            join(cell) :
-                            numbers_of_cell[cell->active_cell_index()]);
-        };
-        const unsigned int handle = triangulation.register_data_attach(pack, false);
-        refine_marked(mesh);
-        std::vector<Numbers> by_cell(triangulation.n_active_cells());
-        triangulation.notify_ready_to_unpack(
-          handle, [&](const Cell &cell, const auto status, const auto &bytes) {
-            const Numbers numbers = to_numbers(bytes);
-            if (status == dealii::parallel::TriangulationBase<dim>::CELL_REFINE)
-              halve(cell, numbers, by_cell);
-            else
-              by_cell[cell->active_cell_index()] = numbers;
-          });
-        numbers_of_cell.swap(by_cell);
       }
   }
 

@@ -57,11 +57,12 @@ namespace perideal
   }
 
   template <int dim>
-  void ControlledNewton<dim>::resume(const NodalVector &loads, const double time)
+  double ControlledNewton<dim>::resume(const NodalVector &loads, const double time, const bool on_other_mesh)
   {
-    NewtonSolver<dim>::resume(loads, time);
-    now              = time;
-    previous.reading = control.gauge ? control.gauge(displacement) : 0.;
+    const double switched = NewtonSolver<dim>::resume(loads, time, on_other_mesh);
+    now                   = time;
+    previous.reading      = control.gauge ? control.gauge(displacement) : 0.;
+    return switched;
   }
 
   template <int dim>

@@ -72,10 +72,12 @@ namespace perideal
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::resume(const NodalVector &external, const double time)
+  double
+  DynamicRelaxation<dim>::resume(const NodalVector &external, const double time, const bool on_other_mesh)
   {
-    EquilibriumPath<dim>::resume(external, time);
-    last_time = time;
+    const double switched = EquilibriumPath<dim>::resume(external, time, on_other_mesh);
+    last_time             = time;
+    return switched;
   }
 
   template <int dim>

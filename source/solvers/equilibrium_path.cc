@@ -234,17 +234,15 @@ namespace perideal
   }
 
   template <int dim>
-  void EquilibriumPath<dim>::resume(const NodalVector &external, const double time)
+  double
+  EquilibriumPath<dim>::resume(const NodalVector &external, const double time, const bool on_other_mesh)
   {
     if (face_values != nullptr)
       face_values->set_time(loads, time);
     compute_forces();
     keep(external, force);
-  }
-
-  template <int dim>
-  double EquilibriumPath<dim>::switch_mesh()
-  {
+    if (!on_other_mesh)
+      return 0.;
     const double now = bonds.strain_energy(), switched = last.energy.strain - now;
     last.energy.switched += switched;
     last.energy.strain = now;

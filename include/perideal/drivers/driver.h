@@ -2,7 +2,7 @@
 #ifndef perideal_drivers_driver_h
 #define perideal_drivers_driver_h
 
-#include <perideal/problem/carried_state.h>
+#include <perideal/drivers/mesh_adaptation.h>
 #include <perideal/problem/mesh_error.h>
 #include <perideal/recorders/recorders.h>
 
@@ -20,15 +20,6 @@ namespace perideal
     stopped,
     /// The mesh is to change before the next one.
     mesh_changes
-  };
-
-  /// What goes from a driver to the one on the changed mesh; null without.
-  template <int dim>
-  struct MeshChange
-  {
-    std::unique_ptr<CarriedState<dim>> state;
-    /// Where the mesh is to be finer.
-    std::unique_ptr<MeshNeed<dim>> need;
   };
 
   /**
@@ -58,11 +49,11 @@ namespace perideal
     /// @throws InputError as run() does before it solves, ComputationError where the solver stops.
     ErrorEstimate estimate(const double tolerance);
 
-    /// Looks where the mesh is to be finer before the first step, and leaves that in change. Collective.
-    void look_at_first_mesh();
+    /// Makes mesh, nodes and families, and reads the scene, once. Collective.
+    void build();
 
-    /// Before run(): what it goes on from; after it, where the mesh is to change: what goes on.
-    MeshChange<dim> change;
+    /// Of meshes that change while the scene goes on.
+    MeshAdaptation<dim> adaptation;
 
   protected:
     /// Reads what the scene says of failure and motion; needs the nodes. Collective.
@@ -115,16 +106,6 @@ namespace perideal
     /// Brings all that lasts to the state of the checkpoint, which is done with. Collective.
     void resume_checkpoint();
 
-    /// Whether the mesh is to change after a step, at a time; what goes on is kept then, with a number that
-    /// the driver on the next mesh reads. Collective.
-    bool mesh_changes(const std::uint64_t step, const double time, const double imbalance);
-
-    /// Notes by how much a change of the mesh lowered the energy [J].
-    void note_switched(const double energy);
-
-    /// Smallest spacing of cells that may come over the present one [-]. Collective.
-    double smallest_share() const;
-
     /// Energies of the present step, the largest so far noted.
     /// @return what is missing over that [-]
     double energy_error(const EnergyBudget &energy, const double scale);
@@ -140,14 +121,6 @@ namespace perideal
     bool is_built = false;
 
   private:
-    /// Takes what a driver on the mesh before has left, and registers what meshes must know. Collective.
-    void       take_change();
-    Checkpoint state_after(const std::uint64_t step, const double time) const;
-    /// How often the cell of each owned node was halved.
-    std::vector<double> depth;
-
-    /// Makes mesh, nodes and families, and reads the scene, once. Collective.
-    void build();
     void finish(const RunStatus status);
     /// The same when an error is on its way, which no other may replace.
     void finish_after_error() noexcept;

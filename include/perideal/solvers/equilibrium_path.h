@@ -102,11 +102,9 @@ namespace perideal
     virtual void register_state(LastingState &state);
     /// Goes on from a state of an earlier run, with the bonds that broke until then broken. Collective.
     /// @param external force of the loads at that time [N]
-    virtual void resume(const NodalVector &external, const double time);
-
-    /// After resume() on another mesh: what is stored less than at the last equilibrium on the mesh before
-    /// counts as switched; returns it [J]. Collective.
-    double switch_mesh();
+    /// @param on_other_mesh whether what is stored less than on the mesh before counts as switched
+    /// @return that [J]
+    virtual double resume(const NodalVector &external, const double time, const bool on_other_mesh);
 
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;

@@ -7,12 +7,33 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perideal
 {
   namespace
   {
     constexpr float never = SofteningBonds::never;
+
+    /// Lengths of bonds by slot [m], operation by operation as in the loops over bonds: a body at rest has no
+    /// extension, not even by rounding.
+    void measure_lengths(const BondList &bonds, const NodeRecord *y, std::vector<double> &result)
+    {
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            const LocalIndex *j       = bonds.neighbour.data() + k;
+            const Lanes       yi      = lanes(y[i]);
+            const Lanes       bond[4] = {
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            const Lanes length = square_root(square);
+            for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+              // Padding has a length too: none that it could exceed.
+              result[k + lane] = j[lane] == i ? 1. : length[lane];
+          }
+    }
   } // namespace
 
   template <int dim>
@@ -35,31 +56,10 @@ namespace perideal
     ghosted.reinit(this->partitioner);
     position.resize(families->n_local(), NodeRecord{});
     forces.resize(families->n_local(), NodeRecord{});
-    measure_rest_lengths();
-  }
-
-  template <int dim>
-  void BreakingBonds<dim>::measure_rest_lengths()
-  {
-    // Operation by operation as in the loops below: a body at rest has no extension, not even by rounding.
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         position[i].value[d] = families->position[i][d];
-    const NodeRecord *y = position.data();
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
-        {
-          const LocalIndex *j       = bonds.neighbour.data() + k;
-          const Lanes       yi      = lanes(y[i]);
-          const Lanes       bond[4] = {
-                  lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
-          Lanes square;
-          sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
-          const Lanes length = square_root(square);
-          for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
-            // Padding has a length too: none that it could exceed.
-            rest_length[k + lane] = j[lane] == i ? 1. : length[lane];
-        }
+    measure_lengths(bonds, position.data(), rest_length);
   }
 
   template <int dim>

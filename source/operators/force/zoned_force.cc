@@ -73,6 +73,15 @@ namespace perideal
         }
       return result;
     }
+
+    /// Memory of the bonds of whole families, with their weights and those that are scaled, if any [B].
+    template <int dim>
+    std::size_t
+    bytes_of(const BondForce<dim> &bonds, const BondWeights<dim> &whole, const BondWeights<dim> *scaled)
+    {
+      return bonds.memory_consumption() + whole.memory_consumption() + whole.families->memory_consumption() +
+             (scaled ? scaled->memory_consumption() : 0);
+    }
   } // namespace
 
   template <int dim>
@@ -296,22 +305,15 @@ namespace perideal
     const auto     first = making.chosen.begin();
     result.nodes =
       sum(static_cast<GlobalIndex>(std::count(first, first + families->n_owned(), true)), communicator);
-    result.bytes   = sum(bytes_of_bonds(), communicator);
+    result.bytes   = sum(bytes_of(*bonds, *whole, scaled.get()), communicator);
     result.seconds = dealii::Utilities::MPI::max(making.seconds, communicator);
     return result;
   }
 
   template <int dim>
-  std::size_t ZonedForce<dim>::bytes_of_bonds() const
-  {
-    return bonds->memory_consumption() + whole->memory_consumption() + whole->families->memory_consumption() +
-           (scaled ? scaled->memory_consumption() : 0);
-  }
-
-  template <int dim>
   std::size_t ZonedForce<dim>::memory_consumption() const
   {
-    return cells->memory_consumption() + bytes_of_bonds() + zone.memory_consumption() +
+    return cells->memory_consumption() + bytes_of(*bonds, *whole, scaled.get()) + zone.memory_consumption() +
            dealii::MemoryConsumption::memory_consumption(limit) + 2 * of_cells.memory_consumption();
   }
 

@@ -110,7 +110,6 @@ namespace perideal
   private:
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
-    void measure_rest_lengths();
 
     bool             judges_bonds = true;
     LostVolumes<dim> volumes;

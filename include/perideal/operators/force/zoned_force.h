@@ -124,8 +124,7 @@ namespace perideal
     /// Makes the bonds of the chosen families, with what is cut, broken and softened. Collective.
     void make_bonds();
     /// Gives cells and bonds their shares. Collective.
-    void        scale();
-    std::size_t bytes_of_bonds() const;
+    void scale();
 
     std::unique_ptr<ConsistentForce<dim>>   cells;
     std::shared_ptr<const Families<dim>>    families;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_drivers_mesh_adaptation_h
+#define perideal_drivers_mesh_adaptation_h
+
+#include <perideal/problem/carried_state.h>
+
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /// What goes from a driver to the one on the changed mesh; null without.
+  template <int dim>
+  struct MeshChange
+  {
+    std::unique_ptr<CarriedState<dim>> state;
+    /// Where the mesh is to be finer.
+    std::unique_ptr<MeshNeed<dim>> need;
+  };
+
+  /// Looks between the steps of a driver whether its mesh is to change, and takes what lasts to the next one.
+  template <int dim>
+  class MeshAdaptation
+  {
+  public:
+    /// The problem must outlive this object.
+    explicit MeshAdaptation(Problem<dim> &problem)
+      : problem(problem)
+    {
+    }
+
+    /// Whether a run that has begun on another mesh goes on here.
+    bool goes_on() const { return change.state && change.state->has_begun(); }
+
+    /// Takes what a driver on the mesh before has left, and registers what meshes must know; needs the nodes.
+    /// Collective.
+    /// @return the state to go on from; null where a run begins
+    std::unique_ptr<Checkpoint> begin();
+
+    /// Finds where the mesh is to be finer before the first step; needs the nodes. Collective.
+    void look_at_first_mesh();
+
+    /// Whether the mesh is to change after a step, at a time; keeps what goes on then. Collective.
+    /// @param imbalance EnergyBudget::imbalance() [J], which the driver on the next mesh asks for
+    bool is_due(const std::uint64_t step, const double time, const double imbalance);
+
+    /// The imbalance of the mesh before, where a state is one that goes on.
+    static constexpr const char *imbalance_before = "imbalance before";
+
+    /// Notes by how much a change of the mesh lowered the energy [J].
+    void note_switched(const double energy);
+
+    /// Smallest spacing of cells that may come over the present one [-]. Collective.
+    double smallest_share() const;
+
+    /// Before a run: what it goes on from; after it, where the mesh is to change: what goes on.
+    MeshChange<dim> change;
+
+  private:
+    bool has_urgent_cells() const;
+
+    Problem<dim> &problem;
+    /// How often the cell of each owned node was halved.
+    std::vector<double> depth;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/drivers/mesh_adaptation.h>
+#include <perideal/problem/present_state.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace perideal
+{
+  template <int dim>
+  std::unique_ptr<Checkpoint> MeshAdaptation<dim>::begin()
+  {
+    std::unique_ptr<Checkpoint> result;
+    depth.assign(problem.body.nodes->size(), 0.);
+    if (change.state)
+      depth = change.state->depth_on(problem.body);
+    if (goes_on())
+      {
+        result = std::make_unique<Checkpoint>(change.state->on(problem.body, nodes_of_state(problem)));
+        // Cells that were halved or joined do not have those of the cells before.
+        result->node_arrays.at("halvings").values = depth;
+      }
+    change = {};
+    if (problem.parameters.adaptation.is_by_need())
+      problem.lasting.add_node_array(
+        "halvings",
+        "-",
+        1,
+        [this] { return depth; },
+        [this](const std::vector<double> &values) { depth = values; });
+    return result;
+  }
+
+  template <int dim>
+  void MeshAdaptation<dim>::look_at_first_mesh()
+  {
+    depth.assign(problem.body.nodes->size(), 0.);
+    change.need  = std::make_unique<MeshNeed<dim>>(problem, depth, 0.);
+    change.state = std::make_unique<CarriedState<dim>>(
+      problem, Checkpoint(), nodes_of_state(problem), depth, change.need->is_quiet);
+  }
+
+  template <int dim>
+  bool MeshAdaptation<dim>::has_urgent_cells() const
+  {
+    unsigned int is_there = 0;
+    for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          depth[problem.body.nodes->node_of_cell[cell->active_cell_index()]] <
+            problem.parameters.adaptation.levels &&
+          change.need->is_urgent(cell))
+        is_there = 1;
+    return dealii::Utilities::MPI::max(is_there, problem.run.communicator) > 0;
+  }
+
+  template <int dim>
+  bool MeshAdaptation<dim>::is_due(const std::uint64_t step, const double time, const double imbalance)
+  {
+    if (!problem.parameters.adaptation.is_by_need())
+      return false;
+    const Timings::Scope scope(problem.run.timings, "adaptation");
+    change.need = std::make_unique<MeshNeed<dim>>(problem, depth, time);
+    if (has_urgent_cells())
+      {
+        Checkpoint state               = state_after(problem, step, time);
+        state.header[imbalance_before] = imbalance;
+        change.state                   = std::make_unique<CarriedState<dim>>(
+          problem, std::move(state), nodes_of_state(problem), depth, change.need->is_quiet);
+        if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
+          {
+            change.state->fit(problem);
+            return true;
+          }
+      }
+    change = {};
+    return false;
+  }
+
+  template <int dim>
+  void MeshAdaptation<dim>::note_switched(const double energy)
+  {
+    if (!problem.run.adaptation.empty())
+      problem.run.adaptation.back()["switched_energy"] = energy;
+  }
+
+  template <int dim>
+  double MeshAdaptation<dim>::smallest_share() const
+  {
+    using dealii::Utilities::MPI::min;
+    double                     now = std::numeric_limits<double>::max(), to_come = now;
+    const std::vector<double> &spacing = problem.body.nodes->spacing;
+    for (LocalIndex i = 0; i < spacing.size(); ++i)
+      {
+        now     = std::min(now, spacing[i]);
+        to_come = std::min(
+          to_come, std::ldexp(spacing[i], static_cast<int>(depth[i] - problem.parameters.adaptation.levels)));
+      }
+    return min(to_come, problem.run.communicator) / min(now, problem.run.communicator);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(MeshAdaptation)
+} // namespace perideal
