@@ -369,4 +369,5 @@ set(perideal_sources
   drivers/mesh_adaptation.cc
   problem/carried_state_mesh.cc
   problem/present_state.cc
+  drivers/tangent_system.cc
 )

@@ -4,14 +4,12 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/failed_step.h>
-#include <perideal/drivers/floating_nodes.h>
 #include <perideal/drivers/heating.h>
 #include <perideal/drivers/load_control.h>
-#include <perideal/drivers/preconditioning.h>
+#include <perideal/drivers/tangent_system.h>
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
 #include <perideal/solvers/dynamic_relaxation.h>
-#include <perideal/solvers/newton.h>
 
 #include <algorithm>
 
@@ -61,20 +59,8 @@ namespace perideal
       {
         const Timings::Scope scope(problem.run.timings, "setup");
         const Timings::Scope part(problem.run.timings, "setup: preconditioner");
-        tangent        = problem.discretisation.create_tangent();
-        tangent_system = std::make_unique<ConstrainedOperator<dim>>(tangent,
-                                                                    problem.loading.supports->images(),
-                                                                    problem.loading.supports->unknowns(),
-                                                                    problem.loading.supports->held().mask());
-        // A load step takes about four solves.
-        preconditioning =
-          std::make_unique<Preconditioning<dim>>(problem, 4 * solver.load_steps, solver_report);
-        tangent_solver = std::make_unique<TangentSolver<dim>>(solver, [this](const SolverParameters &given) {
-          if (tangent_solver)
-            preconditioning->follow_deformation();
-          return preconditioning->create_solver(given, *tangent_system);
-        });
-        solver_report["name"] = "quasi static, " + tangent_solver->name();
+        tangent               = std::make_unique<TangentSystem<dim>>(problem, solver_report);
+        solver_report["name"] = "quasi static, " + tangent->name();
       }
 
       std::string describe() const override
@@ -85,7 +71,7 @@ namespace perideal
         if (!solver.is_quasi_static())
           return "solver      dynamic relaxation" + steps + '\n';
         return "solver      quasi static, Newton's method" + steps +
-               (tangent_solver ? ", tangents by " + tangent_solver->name() : "") + '\n';
+               (tangent ? ", tangents by " + tangent->name() : "") + '\n';
       }
 
       nlohmann::ordered_json skipped() const override
@@ -117,35 +103,15 @@ namespace perideal
               *problem.force, *problem.system, loading.supports->held(), loading.loads, controls);
             return;
           }
-        typename NewtonSolver<dim>::FindFloating find_floating;
-        if (controls.bonds_break || !problem.failure.precracks.empty())
-          find_floating = [this]() { return floating_nodes(problem); };
-        FaceValues<dim> *const face_values =
-          loading.supports->hold_nodes() ? nullptr : loading.supports->face_values().get();
-        const auto make = [&](auto create) {
-          return create(*problem.force,
-                        *tangent,
-                        *tangent_system,
-                        *tangent_solver,
-                        loading.supports->held(),
-                        loading.loads,
-                        problem.free_motions,
-                        controls,
-                        face_values,
-                        find_floating);
-        };
         if (!solver.is_controlled())
           {
-            path =
-              make([](auto &&...arguments) { return std::make_unique<NewtonSolver<dim>>(arguments...); });
+            path = tangent->create_newton(controls);
             return;
           }
-        auto made  = make([this](auto &&...arguments) {
-          return std::make_unique<ControlledNewton<dim>>(LoadControl<dim>::control_of(problem), arguments...);
-        });
+        auto made  = tangent->create_controlled_newton(LoadControl<dim>::control_of(problem), controls);
         controlled = made.get();
         path       = std::move(made);
-        control    = std::make_unique<LoadControl<dim>>(problem, *controlled);
+        control    = std::make_unique<LoadControl<dim>>(problem, *controlled, this->adaptation.finest_cell());
       }
 
       StepsEnd advance() override
@@ -320,15 +286,31 @@ namespace perideal
         const bool   changes = resumed->header.contains(MeshAdaptation<dim>::imbalance_before);
         this->resume_checkpoint();
         apply_loads(time);
-        this->adaptation.note_switched(path->resume(problem.state.external_force, time, changes));
+        path->resume(problem.state.external_force, time);
+        if (changes)
+          come_to_rest(time);
       }
 
-      const SolverParameters                   &solver;
-      std::shared_ptr<TangentOperator<dim>>     tangent;
-      std::unique_ptr<ConstrainedOperator<dim>> tangent_system;
-      std::unique_ptr<Preconditioning<dim>>     preconditioning;
-      std::unique_ptr<TangentSolver<dim>>       tangent_solver;
-      std::unique_ptr<EquilibriumPath<dim>>     path;
+      /// Finds the equilibrium of the state of the mesh before.
+      void come_to_rest(const double time)
+      {
+        const Timings::Scope  scope(problem.run.timings, "solve");
+        const double          before = path->energy().switched;
+        const EquilibriumStep search =
+          path->come_to_rest(problem.state.external_force, time, [&](const unsigned int k, const double r) {
+            show("load step " + std::to_string(done) + ", on the changed mesh", 0., k, r);
+          });
+        progress->clear();
+        if (!search.converged)
+          throw ComputationError(describe_failed_step(solver, done, time, search, path->n_broken()));
+        this->adaptation.note_switched(path->energy().switched - before);
+        problem.state.unknowns = path->displacement;
+        problem.store_displacement();
+      }
+
+      const SolverParameters               &solver;
+      std::unique_ptr<TangentSystem<dim>>   tangent;
+      std::unique_ptr<EquilibriumPath<dim>> path;
       /// Where the loads are an unknown: the path, and its steps.
       ControlledNewton<dim>            *controlled = nullptr;
       std::unique_ptr<LoadControl<dim>> control;

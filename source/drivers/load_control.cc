@@ -58,14 +58,14 @@ namespace perideal
   }
 
   template <int dim>
-  LoadControl<dim>::LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path)
+  LoadControl<dim>::LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path, const double cell)
     : solver(problem.parameters.solver)
     , problem(problem)
     , path(path)
     , largest_time_step(1. / solver.load_steps)
     , largest_amount(solver.control == LoadControlName::gauge ? solver.control_end / solver.load_steps :
                      solver.control_step > 0                  ? solver.control_step :
-                                                                default_amount())
+                                                                default_amount(cell))
     , time_step(largest_time_step)
     , amount(largest_amount)
     , by_loads(solver.control == LoadControlName::dissipated_energy)
@@ -75,13 +75,12 @@ namespace perideal
   }
 
   template <int dim>
-  double LoadControl<dim>::default_amount() const
+  double LoadControl<dim>::default_amount(const double cell) const
   {
     const Body<dim> &body   = problem.body;
     double           volume = std::accumulate(body.nodes->volume.begin(), body.nodes->volume.end(), 0.);
     volume                  = dealii::Utilities::MPI::sum(volume, problem.run.communicator);
-    const double cell       = volume / body.nodes->n_global;
-    double       energy     = 0;
+    double energy           = 0;
     for (const auto id : body.mesh->material_ids)
       energy = std::max(energy, body.properties_of(id).mean_fracture_energy());
     if (dim == 2)

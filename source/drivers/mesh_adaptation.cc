@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace perideal
 {
@@ -85,6 +86,18 @@ namespace perideal
   {
     if (!problem.run.adaptation.empty())
       problem.run.adaptation.back()["switched_energy"] = energy;
+  }
+
+  template <int dim>
+  double MeshAdaptation<dim>::finest_cell() const
+  {
+    using dealii::Utilities::MPI::sum;
+    const std::vector<double> &volume = problem.body.nodes->volume;
+    double                     n      = 0;
+    for (const double halvings : depth)
+      n += std::exp2(dim * (problem.parameters.adaptation.levels - halvings));
+    return sum(std::accumulate(volume.begin(), volume.end(), 0.), problem.run.communicator) /
+           sum(n, problem.run.communicator);
   }
 
   template <int dim>

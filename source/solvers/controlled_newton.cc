@@ -57,12 +57,11 @@ namespace perideal
   }
 
   template <int dim>
-  double ControlledNewton<dim>::resume(const NodalVector &loads, const double time, const bool on_other_mesh)
+  void ControlledNewton<dim>::resume(const NodalVector &loads, const double time)
   {
-    const double switched = NewtonSolver<dim>::resume(loads, time, on_other_mesh);
-    now                   = time;
-    previous.reading      = control.gauge ? control.gauge(displacement) : 0.;
-    return switched;
+    NewtonSolver<dim>::resume(loads, time);
+    now              = time;
+    previous.reading = control.gauge ? control.gauge(displacement) : 0.;
   }
 
   template <int dim>

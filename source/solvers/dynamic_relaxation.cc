@@ -72,12 +72,10 @@ namespace perideal
   }
 
   template <int dim>
-  double
-  DynamicRelaxation<dim>::resume(const NodalVector &external, const double time, const bool on_other_mesh)
+  void DynamicRelaxation<dim>::resume(const NodalVector &external, const double time)
   {
-    const double switched = EquilibriumPath<dim>::resume(external, time, on_other_mesh);
-    last_time             = time;
-    return switched;
+    EquilibriumPath<dim>::resume(external, time);
+    last_time = time;
   }
 
   template <int dim>

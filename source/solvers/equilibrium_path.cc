@@ -66,7 +66,7 @@ namespace perideal
                                 &last.external,
                                 &last.support_force})
       bonds.initialize(*vector);
-    bonds.judge_bonds(false);
+    bonds.judge_bonds(Judgement::on_trial);
     const NodeCloud<dim> &nodes = system.mirror_layer().nodes();
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
@@ -82,7 +82,8 @@ namespace perideal
     breaks.in_step = false;
     EquilibriumStep result;
     unsigned int    since_break = 0;
-    bool            judged      = !controls.bonds_break;
+    const bool      can_break   = controls.bonds_break && !failure_waits;
+    bool            judged      = !can_break;
     compute_forces();
     while (true)
       {
@@ -99,7 +100,7 @@ namespace perideal
           is_in_place() && residual <= std::max(controls.tolerance * reference, rounding.force);
         const bool nearly = is_in_place() && !judged && !bonds.softening_bonds().softens() &&
                             residual <= judge_tolerance * reference;
-        if (controls.bonds_break && (at_rest || nearly))
+        if (can_break && (at_rest || nearly))
           {
             if (breaks.most_dissipated < std::numeric_limits<double>::infinity() &&
                 dissipated_since(external) > breaks.most_dissipated)
@@ -234,27 +235,34 @@ namespace perideal
   }
 
   template <int dim>
-  double
-  EquilibriumPath<dim>::resume(const NodalVector &external, const double time, const bool on_other_mesh)
+  void EquilibriumPath<dim>::resume(const NodalVector &external, const double time)
   {
     if (face_values != nullptr)
       face_values->set_time(loads, time);
     compute_forces();
     keep(external, force);
-    if (!on_other_mesh)
-      return 0.;
-    const double now = bonds.strain_energy(), switched = last.energy.strain - now;
-    last.energy.switched += switched;
-    last.energy.strain = now;
-    return switched;
+  }
+
+  template <int dim>
+  EquilibriumStep
+  EquilibriumPath<dim>::come_to_rest(const NodalVector &external, const double time, const Progress &progress)
+  {
+    const EnergyBudget before = last.energy;
+    bonds.judge_bonds(Judgement::none);
+    failure_waits                = true;
+    const EquilibriumStep result = step(external, time, progress);
+    failure_waits                = false;
+    bonds.judge_bonds(Judgement::on_trial);
+    last.energy.switched += before.strain - last.energy.strain + last.energy.external - before.external;
+    return result;
   }
 
   template <int dim>
   GlobalIndex EquilibriumPath<dim>::judge(const NodalVector &external)
   {
-    bonds.judge_bonds(true);
+    bonds.judge_bonds(Judgement::for_good);
     compute_forces();
-    bonds.judge_bonds(false);
+    bonds.judge_bonds(Judgement::on_trial);
     const GlobalIndex now = bonds.n_broken_now();
     breaks.total += now;
     if (bonds.softening_bonds().any_now(displacement.get_mpi_communicator()))

@@ -189,10 +189,10 @@ namespace perideal
   template <int dim>
   bool NewtonSolver<dim>::iterate(const NodalVector &external, EquilibriumStep &result)
   {
-    if (in_place && this->bonds.softening_bonds().softens())
+    if (in_place && this->bonds.softening_bonds().softens() && !this->failure_waits)
       return iterate_softening(external, result);
     if (in_place)
-      tangent.linearise(this->bonds);
+      tangent.linearise(this->bonds, this->failure_waits);
     if (!solve(result))
       return false;
     if (in_place && search(external))

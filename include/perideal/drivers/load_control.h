@@ -19,8 +19,9 @@ namespace perideal
   class LoadControl
   {
   public:
-    /// @param path made with control_of() the same problem; both must outlive this object. Collective.
-    LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path);
+    /// @param path made with control_of() the same problem; both must outlive this object
+    /// @param cell volume of the cells that cracks cross [m^3]
+    LoadControl(Problem<dim> &problem, ControlledNewton<dim> &path, const double cell);
 
     /// What a path under control needs of a problem, which must outlive it. Collective.
     /// The rules have found the gauge. @throws InputError where it ends outside the body
@@ -50,7 +51,7 @@ namespace perideal
     bool shorten();
     void lengthen(const unsigned int iterations);
     /// The dissipated energy of a load step by default [J].
-    double default_amount() const;
+    double default_amount(const double cell) const;
 
     const SolverParameters &solver;
     const Problem<dim>     &problem;

@@ -50,6 +50,9 @@ namespace perideal
     /// Notes by how much a change of the mesh lowered the energy [J].
     void note_switched(const double energy);
 
+    /// Mean volume of cells, all as often halved as they may be [m^3]. Collective.
+    double finest_cell() const;
+
     /// Smallest spacing of cells that may come over the present one [-]. Collective.
     double smallest_share() const;
 

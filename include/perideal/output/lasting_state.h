@@ -46,8 +46,11 @@ namespace perideal
 
     /// The same in a vector of owned components, the size of which stays; a field that is smooth.
     template <typename Vector>
-    void
-    add_node_array(const std::string &name, const std::string &unit, const unsigned int width, Vector &values)
+    void add_node_array(const std::string &name,
+                        const std::string &unit,
+                        const unsigned int width,
+                        Vector            &values,
+                        const Show         show = Show::never)
     {
       add_node_array(
         name,
@@ -58,7 +61,7 @@ namespace perideal
           const std::size_t size = std::distance(values.begin(), values.end());
           std::copy_n(read.begin(), std::min(size, read.size()), values.begin());
         },
-        Show::never,
+        show,
         Transfer::smooth);
     }
 

@@ -79,8 +79,8 @@ namespace perideal
     /// From now on a step by load() fails where it dissipates more [J].
     void limit_dissipation(const double energy) { most_by_loads = energy; }
 
-    void   register_state(LastingState &state) override;
-    double resume(const NodalVector &external, const double time, const bool on_other_mesh) override;
+    void register_state(LastingState &state) override;
+    void resume(const NodalVector &external, const double time) override;
 
   private:
     enum class Slope

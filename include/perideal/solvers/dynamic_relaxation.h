@@ -44,8 +44,8 @@ namespace perideal
 
     using EquilibriumPath<dim>::displacement;
 
-    void   register_state(LastingState &state) override;
-    double resume(const NodalVector &external, const double time, const bool on_other_mesh) override;
+    void register_state(LastingState &state) override;
+    void resume(const NodalVector &external, const double time) override;
 
   private:
     /// Of all ranks: norms of forces, and products of the motion.

@@ -102,9 +102,12 @@ namespace perideal
     virtual void register_state(LastingState &state);
     /// Goes on from a state of an earlier run, with the bonds that broke until then broken. Collective.
     /// @param external force of the loads at that time [N]
-    /// @param on_other_mesh whether what is stored less than on the mesh before counts as switched
-    /// @return that [J]
-    virtual double resume(const NodalVector &external, const double time, const bool on_other_mesh);
+    virtual void resume(const NodalVector &external, const double time);
+
+    /// After resume() on another mesh than that of the state: goes on to the equilibrium at the same loads,
+    /// with bonds as they are; what is stored less by then than on the mesh before counts as switched. A
+    /// failure is reported, not thrown. Collective.
+    EquilibriumStep come_to_rest(const NodalVector &external, const double time, const Progress &progress);
 
     /// At the last equilibrium, or where a failed search stopped [m].
     NodalVector displacement;
@@ -177,6 +180,9 @@ namespace perideal
       double              force = 0;
     };
     Rounding rounding;
+
+    /// While bonds stay as they are, whatever they bear.
+    bool failure_waits = false;
 
     /// Bonds broken since the beginning, and whether some broke in this step, and since the last equilibrium.
     struct Breaks

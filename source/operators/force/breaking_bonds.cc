@@ -111,10 +111,10 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::judge_bonds(const bool judge)
+  void BreakingBonds<dim>::judge_bonds(const Judgement given)
   {
-    judges_bonds = judge;
-    softening.judge(judge);
+    judgement = given;
+    softening.judge(given == Judgement::for_good);
   }
 
   template <int dim>

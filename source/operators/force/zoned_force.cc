@@ -145,17 +145,17 @@ namespace perideal
         auto &earlier = dynamic_cast<BreakingBonds<dim> &>(*bonds);
         dynamic_cast<BreakingBonds<dim> &>(*made).restore(earlier.memory());
       }
-    made->judge_bonds(judges);
+    made->judge_bonds(judgement);
     bonds            = std::move(made);
     making.is_inside = opposite(families->with_members(opposite(making.chosen)));
     making.seconds += clock.wall_time();
   }
 
   template <int dim>
-  void ZonedForce<dim>::judge_bonds(const bool judge)
+  void ZonedForce<dim>::judge_bonds(const Judgement given)
   {
-    judges = judge;
-    bonds->judge_bonds(judge);
+    judgement = given;
+    bonds->judge_bonds(given);
   }
 
   template <int dim>
@@ -174,9 +174,9 @@ namespace perideal
   {
     NodalVector of_bonds(of_cells);
     const auto  look = [&](const double sign) {
-      bonds->judge_bonds(false);
+      bonds->judge_bonds(Judgement::on_trial);
       bonds->compute(of_bonds, displacement);
-      bonds->judge_bonds(judges);
+      bonds->judge_bonds(judgement);
       change.force.add(sign, of_cells, sign, of_bonds);
       change.energy -= sign * strain_energy();
     };
@@ -222,11 +222,11 @@ namespace perideal
     change.is_there = false;
     cells->compute(of_cells, displacement);
     // Bonds are told when to begin by where they were before.
-    if (judges)
+    if (judgement == Judgement::for_good)
       extend_bonds(displacement);
     bonds->compute(force, displacement);
     force += of_cells;
-    onset.keep(*families, *bonds, judges);
+    onset.keep(*families, *bonds, judgement == Judgement::for_good);
   }
 
   template <int dim>

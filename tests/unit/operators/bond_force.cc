@@ -298,13 +298,13 @@ TEST(BondForce, BreaksOnlyWhenItJudges)
     {
       LooseBody<2> loose(*mesh, variant), whole(*mesh, variant);
       loose.bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.04; });
-      loose.bonds->judge_bonds(false);
+      loose.bonds->judge_bonds(Judgement::on_trial);
       const auto motion = rough_motion<2>(0.01, 6);
       loose.force_of(motion);
       EXPECT_EQ(loose.bonds->n_broken_now(), 0u);
       loose.force -= whole.force_of(motion);
       EXPECT_EQ(loose.force.linfty_norm(), 0.);
-      loose.bonds->judge_bonds(true);
+      loose.bonds->judge_bonds(Judgement::for_good);
       loose.force_of(motion);
       EXPECT_GT(loose.bonds->n_broken_now(), 0u);
     }

@@ -326,11 +326,11 @@ TEST(Correspondence, BondsBreakByTheMeanStressOfTheirEnds)
     return (position[i][0] - 0.5) * (position[j][0] - 0.5) < 0;
   };
   b.of_family().set_strength([&](const auto, const auto &s) { return s[0][0] / strength; }, crosses);
-  b.force->judge_bonds(false);
+  b.force->judge_bonds(Judgement::on_trial);
   b.force->compute(b.result, b.displacement);
   const double before = b.force->strain_energy();
   EXPECT_EQ(b.force->n_broken_now(), 0u);
-  b.force->judge_bonds(true);
+  b.force->judge_bonds(Judgement::for_good);
   b.force->compute(b.result, b.displacement);
   // 2.015 spacings: 6 bonds between neighbouring columns, 2 x 5 diagonal ones, 2 x 6 two columns apart.
   EXPECT_EQ(b.force->n_broken_now(), 6u + 10u + 12u);

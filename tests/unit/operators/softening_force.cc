@@ -64,12 +64,12 @@ namespace
                                           [](const LocalIndex, const LocalIndex) { return 0.02; });
     whole.bonds->compute(whole.force, motion);
 
-    softening.bonds->judge_bonds(false);
+    softening.bonds->judge_bonds(Judgement::on_trial);
     NodalVector on_trial(motion);
     softening.bonds->compute(on_trial, motion);
     softening.bonds->compute(softening.force, rest);
     EXPECT_LE(softening.bonds->strain_energy(), 1e-20);
-    softening.bonds->judge_bonds(true);
+    softening.bonds->judge_bonds(Judgement::for_good);
     softening.bonds->compute(softening.force, motion);
     on_trial -= softening.force;
     EXPECT_EQ(on_trial.linfty_norm(), 0.);
@@ -108,7 +108,7 @@ namespace
       [](const LocalIndex, const LocalIndex) { return std::numeric_limits<double>::infinity(); },
       SofteningLaw("linear"),
       [](const LocalIndex, const LocalIndex) { return 1e-4; });
-    endless.bonds->judge_bonds(true);
+    endless.bonds->judge_bonds(Judgement::for_good);
     whole.bonds->compute(whole.force, motion);
     endless.bonds->compute(endless.force, motion);
     endless.force -= whole.force;

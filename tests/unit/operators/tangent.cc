@@ -175,7 +175,7 @@ namespace
       const GlobalIndex n_broken = body.bonds->n_broken_now();
       EXPECT_GT(n_broken, 0u);
       EXPECT_LT(n_broken, body.body.families->n_bonds() / 2);
-      body.bonds->judge_bonds(false);
+      body.bonds->judge_bonds(Judgement::on_trial);
       body.bonds->compute(body.force, body.displacement);
       body.tangent->linearise(*body.bonds);
       EXPECT_LT(body.error_of_columns(), of_differences);
@@ -204,19 +204,19 @@ namespace
       body.deform();
       if (body.weights->shape.n_sums == 0 && !body.weights->shape.bond_tensors)
         {
-          body.bonds->judge_bonds(false);
+          body.bonds->judge_bonds(Judgement::on_trial);
           body.bonds->compute(body.force, body.displacement);
           body.tangent->linearise(*body.bonds);
           // What is left of bonds is in single precision, which differences of forces over small steps feel.
           EXPECT_LT(body.error_of_columns(), 2e-3);
         }
       // Judged and a little less deformed, bonds keep what is left.
-      body.bonds->judge_bonds(true);
+      body.bonds->judge_bonds(Judgement::for_good);
       body.bonds->compute(body.force, body.displacement);
       EXPECT_TRUE(body.bonds->softening_bonds().any_now(MPI_COMM_WORLD));
       EXPECT_EQ(body.bonds->n_broken_now(), 0u);
       body.displacement *= 0.98;
-      body.bonds->judge_bonds(false);
+      body.bonds->judge_bonds(Judgement::on_trial);
       body.bonds->compute(body.force, body.displacement);
       body.tangent->linearise(*body.bonds, true);
       EXPECT_LT(body.error_of_columns(), of_differences);

@@ -111,7 +111,7 @@ namespace
     ZonedForce<dim>  &force = *box.force;
     const NodalVector at    = box.pulled(0.012, 1e-4);
     // Where bonds are not judged the force stays the same, unless it is told to change.
-    force.judge_bonds(false);
+    force.judge_bonds(Judgement::on_trial);
     force.compute(box.value, at);
     EXPECT_FALSE(force.fracture_zone().is_there());
     EXPECT_TRUE(force.extend_bonds(at));

@@ -45,10 +45,9 @@ namespace perideal
     /// What softening has left of the bonds.
     virtual const SofteningBonds &softening_bonds() const { return softening; }
 
-    /// Whether compute() looks for bonds to break, as it does at first. A solver that goes through
-    /// states which are no motion of the body lets it look at equilibrium only. Until then bonds that soften
-    /// have what a state leaves them if the body came to it from the last equilibrium.
-    virtual void judge_bonds(const bool judge) = 0;
+    /// What compute() makes of bonds beyond their limits, for good at first. A solver that goes through
+    /// states which are no motion of the body lets it judge at equilibrium only.
+    virtual void judge_bonds(const Judgement judgement) = 0;
 
     /// Weighs the families of some owned nodes anew, of which bonds have broken. Collective.
     using Reweigh =

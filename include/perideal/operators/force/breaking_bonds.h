@@ -27,7 +27,7 @@ namespace perideal
     void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
                                      const SofteningLaw                             &law   = SofteningLaw(),
                                      const typename BondForce<dim>::CriticalStretch &first = {}) override;
-    void        judge_bonds(const bool judge) override;
+    void        judge_bonds(const Judgement judgement) override;
     GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
     GlobalIndex n_broken_now() const override;
     void        register_state(LastingState &state) override
@@ -80,7 +80,11 @@ namespace perideal
     virtual void restore_broken(const std::vector<BondEnds> &broken);
 
     /// Whether compute() has to look for bonds that break or soften.
-    bool can_break() const { return (judges_bonds || softening.softens()) && !critical_stretch.empty(); }
+    bool can_break() const
+    {
+      return !critical_stretch.empty() &&
+             (judgement == Judgement::for_good || (judgement == Judgement::on_trial && softening.softens()));
+    }
 
     /// Takes the displacement; from here on bonds break now. Collective.
     /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
@@ -111,7 +115,7 @@ namespace perideal
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
 
-    bool             judges_bonds = true;
+    Judgement        judgement = Judgement::for_good;
     LostVolumes<dim> volumes;
     /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
     std::size_t n_cut = 0, n_lost_before = 0;

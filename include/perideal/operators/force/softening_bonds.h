@@ -12,6 +12,17 @@
 
 namespace perideal
 {
+  /// What becomes of bonds beyond their limits.
+  enum class Judgement
+  {
+    /// They stay as they are.
+    none,
+    /// Those that soften have what a state leaves them if the body came to it from the last equilibrium.
+    on_trial,
+    /// They break or soften.
+    for_good
+  };
+
   /**
    * Keeps what is left of bonds that soften (SofteningLaw), by slot: a share of all their weights. Pressed
    * together, a bond resists its shortening like a whole one; its part in the sums of its families stays what

@@ -21,7 +21,7 @@ namespace perideal
       bonds->set_critical_stretch(stretch, law, first);
     }
     const SofteningBonds &softening_bonds() const override { return bonds->softening_bonds(); }
-    void                  judge_bonds(const bool judge) override { bonds->judge_bonds(judge); }
+    void                  judge_bonds(const Judgement judgement) override { bonds->judge_bonds(judgement); }
     void                  reweigh_as_bonds_break(const std::shared_ptr<const BondWeights<dim>> &weights,
                                                  const typename BondForce<dim>::Reweigh        &reweigh) override
     {

@@ -79,7 +79,7 @@ namespace perideal
     }
     GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
 
-    void judge_bonds(const bool judge) override;
+    void judge_bonds(const Judgement judgement) override;
     void compute(NodalVector &force, const NodalVector &displacement) override;
     bool extend_bonds(const NodalVector &displacement) override;
 
@@ -145,7 +145,7 @@ namespace perideal
     /// Strain at which bonds of an owned node begin to fail [-].
     std::vector<double> limit;
     StressOnset<dim>    onset;
-    bool                judges = true;
+    Judgement           judgement = Judgement::for_good;
 
     NodalVector of_cells;
     /// What the growth in the last compute() has added to the force [N] and taken from the energy [J].
