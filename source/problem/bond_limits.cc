@@ -94,6 +94,12 @@ namespace perideal
       result.lateral     = lateral;
       return result;
     };
+    how.of_continuum = [&body](const auto id, const double horizon) {
+      const double energy = body.properties_of(id).mean_fracture_energy();
+      const double stretch =
+        model_of_bonds(body).critical_stretch(body.solids.at(id).isotropic(), energy, horizon);
+      return stretch * stretch / energy;
+    };
     how.law         = SofteningLaw(body.parameters.material.softening);
     how.first_share = first_share;
     how.with_shares = with_shares;

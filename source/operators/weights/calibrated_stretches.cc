@@ -16,6 +16,12 @@ namespace perideal
     /// are all different, as in unstructured meshes of solids, are only scaled.
     constexpr unsigned int most_normals = 24, few_normals = 8, n_steps = 5, large_family = 64;
 
+    /// Share of the square of the stretch of a continuum below which no family takes its bonds: the least are
+    /// .4 to .6 in families of equal cells and of unstructured meshes, .2 in corners, .01 where cells halve.
+    constexpr double least_share = 0.3;
+    /// Share of the strain of the tensile strength below which no family begins to soften: .75 to .84 do.
+    constexpr double least_first = 0.6;
+
     /// What a family makes of its bonds.
     struct Calibrated
     {
@@ -28,9 +34,10 @@ namespace perideal
     Calibrated calibrate(const FamilyView<dim>   &family,
                          LinearModel<dim>        &model,
                          const Calibration<dim>  &how,
-                         const BondFracture<dim> &fracture,
+                         const dealii::types::material_id material,
                          const bool               is_one_of_many)
     {
+      const BondFracture<dim> fracture = how.fracture_of(material);
       FamilyCoefficients coefficients;
       const FamilyShape  shape = model.shape();
       coefficients.resize(family.size, shape);
@@ -48,7 +55,13 @@ namespace perideal
           failing.first  = strength.first_stretch(fracture.of_strength, result.squares, failing);
           result.squares = separation.calibrate(failing, normals, n);
         }
-      result.first = failing.first;
+      result.first = std::max(failing.first, least_first * fracture.of_strength);
+      if (how.of_continuum)
+        {
+          const double least = least_share * how.of_continuum(material, family.horizon);
+          for (double &square : result.squares)
+            square = std::max(square, least);
+        }
       if (how.with_shares)
         result.shares = separation.by_direction(result.squares, failing);
       return result;
@@ -82,8 +95,7 @@ namespace perideal
       {
         // The cursor goes from family to family.
         cursor.find(i, families.begin(i), families.end(i), ends);
-        const BondFracture<dim> fracture = how.fracture_of(families.material[i]);
-        if (!families.is_whole(i) || !(fracture.energy > 0))
+        if (!families.is_whole(i) || !(how.fracture_of(families.material[i]).energy > 0))
           continue;
         family.reinit(families, i);
         if (families.material[i] != material)
@@ -98,7 +110,7 @@ namespace perideal
           known.clear();
         if (match.is_new)
           {
-            known.push_back(calibrate(family, model, how, fracture, !many_equal));
+            known.push_back(calibrate(family, model, how, material, !many_equal));
             first_code.push_back(many_equal && family.size > 0 ? codes.front() : 0);
           }
         const Calibrated &own = known[match.number];

@@ -32,6 +32,11 @@ namespace perideal
     SofteningLaw                                                       law;
     /// Share of the critical stretch at which bonds begin to soften whose material does not say it.
     double first_share = 1.;
+    /// Square of the critical stretch of a continuum of bonds for a unit of the mean fracture energy, by
+    /// material and horizon [m^2/J]. Where cells grow at once, sums over part of a family, as a crack leaves
+    /// them, may count many times what those over all do, and its bonds would break far too early; none is
+    /// taken below a share of this. Empty: all are taken as they are.
+    std::function<double(const dealii::types::material_id, const double)> of_continuum;
     /// Whether the energies by direction are looked at, too.
     bool with_shares = false;
   };
