@@ -179,6 +179,8 @@ namespace perideal
         all.position.push_back(all.position[i] + 2. * distance * plane.normal);
         all.volume.push_back(all.volume[i]);
         all.spacing.push_back(all.spacing[i]);
+        if (!all.finest.empty())
+          all.finest.push_back(all.finest[i]);
         if (!all.cell_radius.empty())
           all.cell_radius.push_back(all.cell_radius[i]);
         all.horizon.push_back(all.horizon[i]);

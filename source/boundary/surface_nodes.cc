@@ -27,6 +27,8 @@ namespace perideal
           all.position.push_back(face.centre);
           all.volume.push_back(real.volume[face.node]);
           all.spacing.push_back(real.spacing[face.node]);
+          if (!all.finest.empty())
+            all.finest.push_back(real.finest[face.node]);
           if (!all.cell_radius.empty())
             all.cell_radius.push_back(real.cell_radius[face.node]);
           all.horizon.push_back(real.horizon[face.node]);

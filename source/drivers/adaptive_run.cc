@@ -116,11 +116,12 @@ namespace perideal
       const auto pointer = CheckpointPointer::read(directory, mesh.triangulation.get_communicator());
       if (!pointer.problem.empty())
         return;
+      std::set<dealii::CellId> adapted;
       try
         {
           const CheckpointFile file(directory + "/" + pointer.file, pointer.checksum);
           for (const auto &cell : file.header().at("content").at("refined cells"))
-            mesh.adapted.insert(dealii::CellId(cell.get<std::string>()));
+            adapted.insert(dealii::CellId(cell.get<std::string>()));
         }
       catch (const hdf5::Unreadable &)
         {
@@ -128,7 +129,7 @@ namespace perideal
       catch (const CheckpointFile::Json::exception &)
         {
         }
-      refine_like(mesh.adapted, mesh.triangulation);
+      adapt_like(adapted, mesh);
     }
 
     /// Runs on meshes that change while the scene goes on.

@@ -16,33 +16,18 @@ namespace perideal
   std::unique_ptr<Checkpoint> MeshAdaptation<dim>::begin()
   {
     std::unique_ptr<Checkpoint> result;
-    depth.assign(problem.body.nodes->size(), 0.);
-    if (change.state)
-      depth = change.state->depth_on(problem.body);
     if (goes_on())
-      {
-        result = std::make_unique<Checkpoint>(change.state->on(problem.body, nodes_of_state(problem)));
-        // Cells that were halved or joined do not have those of the cells before.
-        result->node_arrays.at("halvings").values = depth;
-      }
+      result = std::make_unique<Checkpoint>(change.state->on(problem.body, nodes_of_state(problem)));
     change = {};
-    if (problem.parameters.adaptation.is_by_need())
-      problem.lasting.add_node_array(
-        "halvings",
-        "-",
-        1,
-        [this] { return depth; },
-        [this](const std::vector<double> &values) { depth = values; });
     return result;
   }
 
   template <int dim>
   void MeshAdaptation<dim>::look_at_first_mesh()
   {
-    depth.assign(problem.body.nodes->size(), 0.);
-    change.need  = std::make_unique<MeshNeed<dim>>(problem, depth, 0.);
+    change.need  = std::make_unique<MeshNeed<dim>>(problem, 0.);
     change.state = std::make_unique<CarriedState<dim>>(
-      problem, Checkpoint(), nodes_of_state(problem), depth, change.need->is_quiet);
+      problem, Checkpoint(), nodes_of_state(problem), change.need->is_quiet);
   }
 
   template <int dim>
@@ -51,8 +36,7 @@ namespace perideal
     unsigned int is_there = 0;
     for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
       if (cell->is_locally_owned() &&
-          depth[problem.body.nodes->node_of_cell[cell->active_cell_index()]] <
-            problem.parameters.adaptation.levels &&
+          halvings(*problem.body.mesh, cell) < problem.parameters.adaptation.levels &&
           change.need->is_urgent(cell))
         is_there = 1;
     return dealii::Utilities::MPI::max(is_there, problem.run.communicator) > 0;
@@ -64,13 +48,13 @@ namespace perideal
     if (!problem.parameters.adaptation.is_by_need())
       return false;
     const Timings::Scope scope(problem.run.timings, "adaptation");
-    change.need = std::make_unique<MeshNeed<dim>>(problem, depth, time);
+    change.need = std::make_unique<MeshNeed<dim>>(problem, time);
     if (has_urgent_cells())
       {
         Checkpoint state               = state_after(problem, step, time);
         state.header[imbalance_before] = imbalance;
         change.state                   = std::make_unique<CarriedState<dim>>(
-          problem, std::move(state), nodes_of_state(problem), depth, change.need->is_quiet);
+          problem, std::move(state), nodes_of_state(problem), change.need->is_quiet);
         if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
           {
             change.state->fit(problem);
@@ -94,8 +78,8 @@ namespace perideal
     using dealii::Utilities::MPI::sum;
     const std::vector<double> &volume = problem.body.nodes->volume;
     double                     n      = 0;
-    for (const double halvings : depth)
-      n += std::exp2(dim * (problem.parameters.adaptation.levels - halvings));
+    for (LocalIndex i = 0; i < volume.size(); ++i)
+      n += std::pow(problem.body.nodes->finest_share(i), -dim);
     return sum(std::accumulate(volume.begin(), volume.end(), 0.), problem.run.communicator) /
            sum(n, problem.run.communicator);
   }
@@ -109,8 +93,7 @@ namespace perideal
     for (LocalIndex i = 0; i < spacing.size(); ++i)
       {
         now     = std::min(now, spacing[i]);
-        to_come = std::min(
-          to_come, std::ldexp(spacing[i], static_cast<int>(depth[i] - problem.parameters.adaptation.levels)));
+        to_come = std::min(to_come, spacing[i] * problem.body.nodes->finest_share(i));
       }
     return min(to_come, problem.run.communicator) / min(now, problem.run.communicator);
   }

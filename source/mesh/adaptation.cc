@@ -147,6 +147,16 @@ namespace perideal
         result.insert(of_rank.begin(), of_rank.end());
       return result;
     }
+
+    /// Notes what of a mesh was refined before. Collective.
+    template <int dim>
+    void begin_to_adapt(Mesh<dim> &mesh)
+    {
+      if (!mesh.adapted.empty())
+        return;
+      mesh.description += ", adapted";
+      mesh.refined_before = refined_cells(mesh.triangulation);
+    }
   } // namespace
 
   template <int dim>
@@ -178,11 +188,30 @@ namespace perideal
   template <int dim>
   void refine_marked(Mesh<dim> &mesh)
   {
+    begin_to_adapt(mesh);
     mesh.triangulation.execute_coarsening_and_refinement();
-    if (mesh.adapted.empty())
-      mesh.description += ", adapted";
     mesh.adapted = refined_cells(mesh.triangulation);
     check_refined_mesh(mesh.triangulation, mesh.description);
+  }
+
+  template <int dim>
+  unsigned int halvings(const Mesh<dim> &mesh, const typename dealii::Triangulation<dim>::cell_iterator &cell)
+  {
+    unsigned int result = 0;
+    if (mesh.adapted.empty())
+      return result;
+    for (auto child = cell; child->level() > 0; child = child->parent())
+      if (mesh.refined_before.count(child->parent()->id()) == 0)
+        ++result;
+    return result;
+  }
+
+  template <int dim>
+  void adapt_like(const std::set<dealii::CellId> &adapted, Mesh<dim> &mesh)
+  {
+    begin_to_adapt(mesh);
+    mesh.adapted = adapted;
+    refine_like(adapted, mesh.triangulation);
   }
 
   template <int dim>
@@ -206,5 +235,7 @@ namespace perideal
   PERIDEAL_INSTANTIATE(measure)
   PERIDEAL_INSTANTIATE(mark_largest)
   PERIDEAL_INSTANTIATE(refine_marked)
+  PERIDEAL_INSTANTIATE(halvings)
+  PERIDEAL_INSTANTIATE(adapt_like)
   PERIDEAL_INSTANTIATE(refine_like)
 } // namespace perideal

@@ -120,6 +120,8 @@ namespace perideal
         if (!shape.empty())
           shape.push_back(ghost.shape);
         spacing.push_back(ghost.spacing);
+        if (!finest.empty())
+          finest.push_back(ghost.finest_share);
         if (margin > 0)
           cell_radius.push_back(ghost.cell_radius);
       }

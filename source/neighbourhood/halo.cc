@@ -97,6 +97,7 @@ namespace perideal
                                          nodes.volume[i],
                                          nodes.horizon[i],
                                          nodes.spacing[i],
+                                         nodes.finest_share(i),
                                          nodes.material[i],
                                          nodes.cell_radius.empty() ? 0. : nodes.cell_radius[i],
                                          nodes.shape.empty() ? dealii::Tensor<2, dim>() : nodes.shape[i],

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/base/instantiate.h>
+#include <perideal/mesh/adaptation.h>
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/problem/body.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -111,6 +113,14 @@ namespace perideal
   {
     nodes = std::make_unique<Nodes<dim>>(*mesh, parameters.nodes);
     prepare_cells(parameters.quadrature, *mesh, *nodes);
+    if (parameters.adaptation.is_by_need())
+      {
+        nodes->finest.resize(nodes->size());
+        for (const auto &cell : mesh->triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            nodes->finest[nodes->node_of_cell[cell->active_cell_index()]] =
+              std::exp2(static_cast<double>(halvings(*mesh, cell)) - parameters.adaptation.levels);
+      }
     faces = find_boundary_faces(*mesh, *nodes);
   }
 

@@ -113,10 +113,11 @@ namespace perideal
     // Between unequal horizons the mean, between materials the weaker one (XOSB eqs. 81, 86).
     if (calibrated.near.empty())
       {
-        const double horizon = 0.5 * (families.horizon[i] + families.horizon[j]);
+        const double horizon = 0.5 * (families.finest_horizon(i) + families.finest_horizon(j));
         return std::min(critical_stretch(body, near, horizon), critical_stretch(body, far, horizon));
       }
-    const double of_near = square(near, calibrated.near[slot]), of_far = square(far, calibrated.far[slot]);
+    const double of_near = square(near, calibrated.near[slot] / families.finest_share(i)),
+                 of_far  = square(far, calibrated.far[slot] / families.finest_share(j));
     return std::sqrt(near == far ? 0.5 * (of_near + of_far) : std::min(of_near, of_far));
   }
 

@@ -32,11 +32,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  CarriedState<dim>::CarriedState(const Problem<dim>        &problem,
-                                  Checkpoint               &&given,
-                                  const CheckpointNodes     &keyed,
-                                  const std::vector<double> &depth,
-                                  const std::vector<bool>   &quiet)
+  CarriedState<dim>::CarriedState(const Problem<dim>      &problem,
+                                  Checkpoint             &&given,
+                                  const CheckpointNodes   &keyed,
+                                  const std::vector<bool> &quiet)
     : state(std::move(given))
   {
     const Nodes<dim> &nodes = *problem.body.nodes;
@@ -52,7 +51,7 @@ namespace perideal
     std::vector<Numbers>    of_node(nodes.size());
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        of_node[i] = {failed[i] ? 1. : 0., quiet[i] ? 1. : 0., depth[i]};
+        of_node[i] = {failed[i] ? 1. : 0., quiet[i] ? 1. : 0.};
         for (const auto *names : {&constant, &smooth})
           for (const std::string &name : *names)
             {
@@ -152,16 +151,6 @@ namespace perideal
               coefficients[k * n_coefficients + c] = unit[c] * scale[c] * solution[c];
           }
       }
-  }
-
-  template <int dim>
-  std::vector<double> CarriedState<dim>::depth_on(const Body<dim> &body) const
-  {
-    std::vector<double> result(body.nodes->size());
-    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
-      if (const LocalIndex i = body.nodes->node_of_cell[c]; i != dealii::numbers::invalid_unsigned_int)
-        result[i] = numbers_of_cell[c][halvings];
-    return result;
   }
 
   template <int dim>

@@ -44,7 +44,6 @@ namespace perideal
     const QuadraticTerms<dim> p      = quadratic_terms(d);
     const std::size_t         first  = n_places + n_constant;
     result[is_quiet]                 = 0.;
-    result[halvings] += 1.;
     for (std::size_t k = 0; k < n_smooth; ++k)
       {
         double *coefficients = result.data() + first + n_smooth + k * n_coefficients;
@@ -104,7 +103,6 @@ namespace perideal
     for (std::size_t k = first; k < result.size(); ++k)
       result[k] /= volume;
     result[is_quiet] = 0.;
-    result[halvings] -= 1.;
     return result;
   }
 
@@ -158,12 +156,12 @@ namespace perideal
         {
           const Numbers &numbers = numbers_of_cell[cell->active_cell_index()];
           const bool     is_near = need.is_near(cell);
-          if (is_near && numbers[halvings] < levels && !blocked[cell->active_cell_index()])
+          if (is_near && halvings(mesh, cell) < levels && !blocked[cell->active_cell_index()])
             {
               cell->set_refine_flag();
               ++n_halved;
             }
-          else if (joins && !is_near && numbers[halvings] > 0 && numbers[is_quiet] > 0 &&
+          else if (joins && !is_near && halvings(mesh, cell) > 0 && numbers[is_quiet] > 0 &&
                    numbers[is_kept] == 0)
             cell->set_coarsen_flag();
         }
@@ -178,8 +176,8 @@ namespace perideal
     const auto  blocked = blocked_cells(mesh.triangulation);
     GlobalIndex n       = 0;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && !blocked[cell->active_cell_index()] &&
-          numbers_of_cell[cell->active_cell_index()][halvings] < levels && need.is_urgent(cell))
+      if (cell->is_locally_owned() && !blocked[cell->active_cell_index()] && halvings(mesh, cell) < levels &&
+          need.is_urgent(cell))
         ++n;
     return sum(n, mesh.triangulation.get_communicator()) > 0;
   }

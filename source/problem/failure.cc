@@ -114,7 +114,7 @@ namespace perideal
     typename ZonedForce<dim>::Limits limits{
       set_limits, [&](const LocalIndex i) {
         return unbreakable[i] ? std::numeric_limits<double>::infinity() :
-                                first_strain(body, families.material[i], families.horizon[i]);
+                                first_strain(body, families.material[i], families.finest_horizon(i));
       }};
     if (body.parameters.material.has_criterion())
       {

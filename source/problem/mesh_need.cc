@@ -53,7 +53,7 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  MeshNeed<dim>::MeshNeed(const Problem<dim> &problem, const std::vector<double> &depth, const double time)
+  MeshNeed<dim>::MeshNeed(const Problem<dim> &problem, const double time)
     : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
     , time(time)
   {
@@ -61,7 +61,7 @@ namespace perideal
     const Nodes<dim>           &nodes        = *problem.body.nodes;
     const MPI_Comm              communicator = nodes.communicator;
     const auto                  reach_of     = [&](const LocalIndex i) {
-      return adaptation.reach * std::ldexp(nodes.spacing[i], static_cast<int>(depth[i] - adaptation.levels));
+      return adaptation.reach * nodes.spacing[i] * nodes.finest_share(i);
     };
     Places<dim> places;
     is_quiet.assign(nodes.size(), true);

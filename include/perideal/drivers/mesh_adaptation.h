@@ -32,8 +32,7 @@ namespace perideal
     /// Whether a run that has begun on another mesh goes on here.
     bool goes_on() const { return change.state && change.state->has_begun(); }
 
-    /// Takes what a driver on the mesh before has left, and registers what meshes must know; needs the nodes.
-    /// Collective.
+    /// Takes what a driver on the mesh before has left; needs the nodes. Collective.
     /// @return the state to go on from; null where a run begins
     std::unique_ptr<Checkpoint> begin();
 
@@ -63,8 +62,6 @@ namespace perideal
     bool has_urgent_cells() const;
 
     Problem<dim> &problem;
-    /// How often the cell of each owned node was halved.
-    std::vector<double> depth;
   };
 } // namespace perideal
 

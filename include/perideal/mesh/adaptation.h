@@ -72,6 +72,15 @@ namespace perideal
   template <int dim>
   void refine_marked(Mesh<dim> &mesh);
 
+  /// How often a cell was halved since the mesh adapts.
+  template <int dim>
+  unsigned int halvings(const Mesh<dim>                                          &mesh,
+                        const typename dealii::Triangulation<dim>::cell_iterator &cell);
+
+  /// Adapts a mesh that has not been adapted to the refined cells of one that was. Collective.
+  template <int dim>
+  void adapt_like(const std::set<dealii::CellId> &adapted, Mesh<dim> &mesh);
+
   /// Refines cells until all have children that are among those of another mesh that have. Collective on
   /// distributed triangulations.
   template <int dim>

@@ -50,6 +50,8 @@ namespace perideal
     LocalRefinement local_refinement;
     /// Cells of all ranks that have children where the mesh was adapted after that; empty where it was not.
     std::set<dealii::CellId> adapted;
+    /// Of these, the ones that had children before that.
+    std::set<dealii::CellId> refined_before;
     /// Thickness of a two-dimensional body [m]; 1 in 3-D.
     double thickness = 1.;
     /// One line for the banner: where the mesh comes from and its cells.

@@ -37,6 +37,7 @@ namespace perideal
     using NodeArrays<dim>::material;
     using NodeArrays<dim>::shape;
     using NodeArrays<dim>::spacing;
+    using NodeArrays<dim>::finest;
     using NodeArrays<dim>::cell_radius;
     using NodeArrays<dim>::cell;
     using NodeArrays<dim>::margin;

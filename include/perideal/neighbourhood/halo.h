@@ -16,7 +16,7 @@ namespace perideal
     GlobalIndex                number;
     unsigned int               owner;
     dealii::Point<dim>         position;
-    double                     volume, horizon, spacing;
+    double                     volume, horizon, spacing, finest_share;
     dealii::types::material_id material;
     /// Zero where families hold the nodes within horizons.
     double cell_radius;

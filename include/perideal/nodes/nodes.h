@@ -57,6 +57,8 @@ namespace perideal
     std::vector<double> volume;
     /// Edge length of the square or cube of equal measure [m].
     std::vector<double> spacing;
+    /// Share of itself that the spacing may come to as the mesh adapts [-]. Empty: the mesh stays.
+    std::vector<double> finest;
     /// Horizon factor times spacing [m]: the radius of a spherical horizon, and
     /// of the sphere with the volume of one that has the shape of the cell.
     std::vector<double> horizon;
@@ -76,6 +78,11 @@ namespace perideal
     /// How far the search looks from node @p i along each axis [m]: its horizon, and where families hold
     /// cells that horizons cut, far enough for these.
     dealii::Tensor<1, dim> reach(const LocalIndex i) const;
+
+    /// Horizon of the smallest cells that a node's own may be halved to [m]. Bonds fail by it: larger cells
+    /// are halved before theirs do.
+    double finest_horizon(const LocalIndex i) const { return horizon[i] * finest_share(i); }
+    double finest_share(const LocalIndex i) const { return finest.empty() ? 1. : finest[i]; }
 
     /// A hair by which spherical horizons are larger, so that on regular meshes the nodes at the rim of a
     /// horizon of whole cells are members, whatever way they are rounded.

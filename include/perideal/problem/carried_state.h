@@ -27,13 +27,11 @@ namespace perideal
   public:
     /// Takes the state of the problem, whose force has bonds. Collective.
     /// @param keyed the nodes of the state
-    /// @param depth how often the cell of each owned node was halved
-    /// @param quiet whether it may be joined with its neighbours, by owned node
-    CarriedState(const Problem<dim>        &problem,
-                 Checkpoint               &&state,
-                 const CheckpointNodes     &keyed,
-                 const std::vector<double> &depth,
-                 const std::vector<bool>   &quiet);
+    /// @param quiet whether its cell may be joined with its neighbours, by owned node
+    CarriedState(const Problem<dim>      &problem,
+                 Checkpoint             &&state,
+                 const CheckpointNodes   &keyed,
+                 const std::vector<bool> &quiet);
 
     /// Fits polynomials to smooth fields, without which no cell may be halved; the problem is not needed any
     /// more then. Collective.
@@ -53,9 +51,6 @@ namespace perideal
     /// Time of the state [s], or of load steps.
     double time() const { return state.get<double>("time"); }
 
-    /// How often the cell of each node was halved.
-    std::vector<double> depth_on(const Body<dim> &body) const;
-
     /// The state by the nodes of the changed mesh. Collective.
     Checkpoint on(const Body<dim> &body, const CheckpointNodes &nodes) const;
 
@@ -68,7 +63,6 @@ namespace perideal
     {
       is_kept,
       is_quiet,
-      halvings,
       n_places
     };
     /// Of a polynomial without its constant.

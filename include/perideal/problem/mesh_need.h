@@ -23,8 +23,7 @@ namespace perideal
     using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
 
     /// Looks at a problem with nodes and, where it has one, at its force. Collective.
-    /// @param depth how often the cell of each node was halved
-    MeshNeed(const Problem<dim> &problem, const std::vector<double> &depth, const double time);
+    MeshNeed(const Problem<dim> &problem, const double time);
 
     /// Whether a cell lies within the reach of a place that needs small cells.
     bool is_near(const Cell &cell) const { return is_in(within_reach, cell); }

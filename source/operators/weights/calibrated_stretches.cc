@@ -31,15 +31,15 @@ namespace perideal
     };
 
     template <int dim>
-    Calibrated calibrate(const FamilyView<dim>   &family,
-                         LinearModel<dim>        &model,
-                         const Calibration<dim>  &how,
+    Calibrated calibrate(const FamilyView<dim>           &family,
+                         LinearModel<dim>                &model,
+                         const Calibration<dim>          &how,
                          const dealii::types::material_id material,
-                         const bool               is_one_of_many)
+                         const bool                       is_one_of_many)
     {
       const BondFracture<dim> fracture = how.fracture_of(material);
-      FamilyCoefficients coefficients;
-      const FamilyShape  shape = model.shape();
+      FamilyCoefficients      coefficients;
+      const FamilyShape       shape = model.shape();
       coefficients.resize(family.size, shape);
       model.compute(family, coefficients);
       Separation<dim>    separation(family, coefficients, shape, fracture.by_normal);
