@@ -46,13 +46,13 @@ namespace perideal
     create_output_directory(problem.parameters.output_directory, problem.run.communicator);
     const DirectoryLock lock(problem.parameters.output_directory, problem.run.communicator);
     build();
-    const bool goes_on = adaptation.goes_on();
-    resumed            = adaptation.begin();
-    if (problem.parameters.checkpoints.restart && !goes_on)
+    mesh_has_changed = adaptation.goes_on();
+    resumed          = adaptation.begin();
+    if (problem.parameters.checkpoints.restart && !mesh_has_changed)
       open_checkpoint();
     prepare();
     recorders = std::make_unique<Recorders<dim>>(problem, kind);
-    if (!goes_on)
+    if (!mesh_has_changed)
       {
         auto skips = list_skipped(problem);
         skips.update(skipped());

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace perideal
 {
@@ -171,12 +170,11 @@ namespace perideal
                                           {"stable_time_step", steps.stable}};
         make_dynamics();
         register_state();
-        // Energies of the mesh before, where this one goes on from it.
-        std::optional<double> imbalance_before;
-        if (resumed && resumed->header.contains(MeshAdaptation<dim>::imbalance_before))
-          imbalance_before = resumed->template get<double>(MeshAdaptation<dim>::imbalance_before);
+        const bool is_restart = resumed && !this->mesh_has_changed;
         if (resumed)
           this->resume_checkpoint();
+        if (is_restart && mesh_is_due())
+          return StepsEnd::mesh_changes;
         if (!problem.loading.supports->hold_nodes())
           initial.move_faces(problem, *problem.loading.supports->face_values(), *dynamics);
         apply_forces();
@@ -203,13 +201,10 @@ namespace perideal
               version = problem.force->version();
               dynamics->evaluate(problem.state.external_force);
               dynamics->add_work(heating.work());
-              if (imbalance_before)
-                {
-                  const double switched = dynamics->energy().imbalance() - *imbalance_before;
-                  dynamics->add_switched(switched);
-                  this->adaptation.note_switched(switched);
-                  imbalance_before.reset();
-                }
+              if (n == first && this->mesh_has_changed)
+                take_energy_of_change();
+              if (this->adaptation.looks_at(n + 1))
+                imbalance = dynamics->energy().imbalance();
             }
             observe(n);
             if (const auto share = static_cast<double>(n) / steps.number; progress.is_due() || n == first)
@@ -227,11 +222,24 @@ namespace perideal
               save();
             if (stops)
               return StepsEnd::stopped;
-            if (n + 1 < steps.number && (n + 1) % problem.parameters.adaptation.interval == 0 &&
-                this->adaptation.is_due(dynamics->step(), dynamics->time(), dynamics->energy().imbalance()))
+            if (mesh_is_due())
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;
+      }
+
+      /// Counts what is missing since the mesh changed as switched.
+      void take_energy_of_change()
+      {
+        const double switched = dynamics->energy().imbalance() - imbalance;
+        dynamics->add_switched(switched);
+        this->adaptation.note_switched(switched);
+      }
+
+      bool mesh_is_due()
+      {
+        return dynamics->step() < steps.number &&
+               this->adaptation.is_due_in_motion(dynamics->step(), dynamics->time(), dynamics->displacement);
       }
 
       void apply_forces() { problem.loading.external_force(dynamics->time(), problem.state.external_force); }
@@ -307,6 +315,7 @@ namespace perideal
       {
         LastingState &state = problem.lasting;
         state.add_value("time step", steps.size);
+        state.add_value("energy imbalance", imbalance);
         dynamics->register_state(state);
         if (forces.contact)
           state.add_part("contact", recorders->summary());
@@ -328,6 +337,8 @@ namespace perideal
       std::unique_ptr<ExplicitDynamics<dim>> dynamics;
       MotionCheck<dim>                       motion_check;
       Heating<dim>                           heating;
+      /// Of the energies at the last step before a look at the mesh [J].
+      double imbalance = 0;
     };
   } // namespace
 

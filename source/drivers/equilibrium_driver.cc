@@ -127,7 +127,11 @@ namespace perideal
           control->register_state(problem.lasting);
         heating.begin_cold();
         if (resumed)
-          resume();
+          {
+            resume();
+            if (!this->mesh_has_changed && this->adaptation.is_due(done, time()))
+              return StepsEnd::mesh_changes;
+          }
         const unsigned int interval = problem.parameters.checkpoints.steps;
         const StopRequest  stop;
         while (!is_done())
@@ -137,10 +141,10 @@ namespace perideal
             const bool stops  = stop.is_there(problem.run.communicator);
             const bool is_due = stops || (interval > 0 && done % interval == 0);
             if (is_done() ? problem.parameters.checkpoints.at_end && !control : is_due)
-              this->save_checkpoint(done, control ? controlled->time() : time_of(done));
+              this->save_checkpoint(done, time());
             if (stops && !is_done())
               return StepsEnd::stopped;
-            if (!is_done() && this->adaptation.is_due(done, control ? controlled->time() : time_of(done), 0.))
+            if (!is_done() && this->adaptation.is_due(done, time()))
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;
@@ -150,7 +154,9 @@ namespace perideal
       {
         return static_cast<double>(number) / solver.load_steps;
       }
-      bool is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
+      /// At the last equilibrium.
+      double time() const { return control ? controlled->time() : time_of(done); }
+      bool   is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
 
       void take_load_step(const unsigned int number)
       {
@@ -281,13 +287,12 @@ namespace perideal
 
       void resume()
       {
-        done                 = resumed->template get<unsigned int>("step");
-        const double time    = resumed->template get<double>("time");
-        const bool   changes = resumed->header.contains(MeshAdaptation<dim>::imbalance_before);
+        done              = resumed->template get<unsigned int>("step");
+        const double time = resumed->template get<double>("time");
         this->resume_checkpoint();
         apply_loads(time);
         path->resume(problem.state.external_force, time);
-        if (changes)
+        if (this->mesh_has_changed)
           come_to_rest(time);
       }
 

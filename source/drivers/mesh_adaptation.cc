@@ -43,7 +43,7 @@ namespace perideal
   }
 
   template <int dim>
-  bool MeshAdaptation<dim>::is_due(const std::uint64_t step, const double time, const double imbalance)
+  bool MeshAdaptation<dim>::is_due(const std::uint64_t step, const double time)
   {
     if (!problem.parameters.adaptation.is_by_need())
       return false;
@@ -51,10 +51,8 @@ namespace perideal
     change.need = std::make_unique<MeshNeed<dim>>(problem, time);
     if (has_urgent_cells())
       {
-        Checkpoint state               = state_after(problem, step, time);
-        state.header[imbalance_before] = imbalance;
-        change.state                   = std::make_unique<CarriedState<dim>>(
-          problem, std::move(state), nodes_of_state(problem), change.need->is_quiet);
+        change.state = std::make_unique<CarriedState<dim>>(
+          problem, state_after(problem, step, time), nodes_of_state(problem), change.need->is_quiet);
         if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
           {
             change.state->fit(problem);
@@ -63,6 +61,22 @@ namespace perideal
       }
     change = {};
     return false;
+  }
+
+  template <int dim>
+  bool MeshAdaptation<dim>::is_due_in_motion(const std::uint64_t step,
+                                             const double        time,
+                                             const NodalVector  &displacement)
+  {
+    if (!looks_at(step))
+      return false;
+    BondForce<dim> &bonds = *problem.force;
+    NodalVector     force;
+    bonds.initialize(force);
+    bonds.judge_bonds(Judgement::none);
+    bonds.compute(force, displacement);
+    bonds.judge_bonds(Judgement::for_good);
+    return is_due(step, time);
   }
 
   template <int dim>

@@ -113,8 +113,9 @@ namespace perideal
     Problem<dim>                   &problem;
     const RunKind                   kind;
     std::unique_ptr<Recorders<dim>> recorders;
-    /// What this run goes on from, if it does.
+    /// What this run goes on from, if it does, and whether that was left by another mesh.
     std::unique_ptr<Checkpoint> resumed;
+    bool                        mesh_has_changed = false;
     /// Of the run so far [J].
     double largest_energy = 0;
     /// Whether mesh, nodes and families are there.

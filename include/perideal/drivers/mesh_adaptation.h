@@ -40,11 +40,18 @@ namespace perideal
     void look_at_first_mesh();
 
     /// Whether the mesh is to change after a step, at a time; keeps what goes on then. Collective.
-    /// @param imbalance EnergyBudget::imbalance() [J], which the driver on the next mesh asks for
-    bool is_due(const std::uint64_t step, const double time, const double imbalance);
+    bool is_due(const std::uint64_t step, const double time);
 
-    /// The imbalance of the mesh before, where a state is one that goes on.
-    static constexpr const char *imbalance_before = "imbalance before";
+    /// Whether a motion looks at its mesh after a step.
+    bool looks_at(const std::uint64_t step) const
+    {
+      const AdaptationParameters &adaptation = problem.parameters.adaptation;
+      return adaptation.is_by_need() && step % adaptation.interval == 0;
+    }
+
+    /// is_due() of a motion, whose bonds it looks at as a displacement of owned nodes finds them [m].
+    /// Collective.
+    bool is_due_in_motion(const std::uint64_t step, const double time, const NodalVector &displacement);
 
     /// Notes by how much a change of the mesh lowered the energy [J].
     void note_switched(const double energy);
