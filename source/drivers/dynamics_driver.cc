@@ -202,7 +202,7 @@ namespace perideal
               dynamics->evaluate(problem.state.external_force);
               dynamics->add_work(heating.work());
               if (n == first && this->mesh_has_changed)
-                take_energy_of_change();
+                this->adaptation.note_switched(dynamics->switch_mesh(imbalance));
               if (this->adaptation.looks_at(n + 1))
                 imbalance = dynamics->energy().imbalance();
             }
@@ -226,14 +226,6 @@ namespace perideal
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;
-      }
-
-      /// Counts what is missing since the mesh changed as switched.
-      void take_energy_of_change()
-      {
-        const double switched = dynamics->energy().imbalance() - imbalance;
-        dynamics->add_switched(switched);
-        this->adaptation.note_switched(switched);
       }
 
       bool mesh_is_due()

@@ -183,6 +183,17 @@ namespace perideal
   }
 
   template <int dim>
+  bool CarriedState<dim>::has_failed_larger_cells(const Mesh<dim> &mesh, const unsigned int levels) const
+  {
+    GlobalIndex n = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][is_kept] > 0 &&
+          halvings(mesh, cell) < levels)
+        ++n;
+    return sum(n, mesh.triangulation.get_communicator()) > 0;
+  }
+
+  template <int dim>
   void CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
   {
     auto &triangulation = mesh.triangulation;

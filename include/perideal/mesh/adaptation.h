@@ -25,7 +25,7 @@ namespace perideal
     /// How often a cell of the mesh may be halved by need; 0: none is.
     unsigned int levels = 0;
     /// Share of what bonds bear from which cells are halved, and below which they are joined again [-].
-    double refine_from = 0.5, coarsen_below = 0.;
+    double refine_from = 0.8, coarsen_below = 0.;
     /// How far around such a place cells are halved, in smallest spacings of the mesh [-].
     double reach = 12.;
     /// Steps of a motion between two looks.

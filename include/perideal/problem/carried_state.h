@@ -48,6 +48,9 @@ namespace perideal
     /// Whether change() would halve a cell that is to be small now. Collective.
     bool is_urgent(const Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels) const;
 
+    /// Whether bonds failed of a cell that could have been halved. Collective.
+    bool has_failed_larger_cells(const Mesh<dim> &mesh, const unsigned int levels) const;
+
     /// Time of the state [s], or of load steps.
     double time() const { return state.get<double>("time"); }
 

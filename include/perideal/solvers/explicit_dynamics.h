@@ -82,9 +82,14 @@ namespace perideal
     /// @param of_all of all ranks
     void add_work(const double of_all);
 
-    /// Counts energy as one that is stored no more, as the mesh is another one [J].
-    /// @param of_all of all ranks
-    void add_switched(const double of_all) { breaks.switched += of_all; }
+    /// Counts what has gone since the energies had an imbalance as switched: the mesh is another one.
+    /// @return that, of all ranks [J]
+    double switch_mesh(const double imbalance)
+    {
+      const double gone = energy().imbalance() - imbalance;
+      breaks.switched += gone;
+      return gone;
+    }
 
     /// Advances by one step.
     void advance();

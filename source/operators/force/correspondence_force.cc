@@ -37,7 +37,7 @@ namespace perideal
   void CorrespondenceForce<dim>::set_strength(
     const Utilisation &given, const std::function<bool(const LocalIndex, const LocalIndex)> &can_break)
   {
-    utilisation = given;
+    of_stress = given;
     this->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
       return can_break(i, j) ? 0. : std::numeric_limits<double>::infinity();
     });
@@ -76,7 +76,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<double> CorrespondenceForce<dim>::utilisations() const
+  std::vector<double> CorrespondenceForce<dim>::utilisation_of_bonds() const
   {
     NodalVector stresses(families->make_partitioner(n_stresses));
     rows->visit_gradients([&](const LocalIndex i, const dealii::Tensor<2, dim> &g) {
@@ -97,17 +97,32 @@ namespace perideal
           for (unsigned int k = 0; k < n_stresses; ++k)
             mean.access_raw_entry(k) =
               0.5 * (stresses.local_element(n_stresses * i + k) + stresses.local_element(n_stresses * j + k));
-          result[slot] = utilisation(families->material[i], mean);
+          result[slot] = of_stress(families->material[i], mean);
           if (families->material[j] != families->material[i])
-            result[slot] = std::max(result[slot], utilisation(families->material[j], mean));
+            result[slot] = std::max(result[slot], of_stress(families->material[j], mean));
         }
+    return result;
+  }
+
+  template <int dim>
+  std::vector<double> CorrespondenceForce<dim>::utilisation() const
+  {
+    std::vector<double> result(families->n_owned(), 0.);
+    if (!of_stress)
+      return result;
+    const std::vector<double> of_bonds = utilisation_of_bonds();
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        for (const LocalIndex end : {i, bonds.neighbour[slot]})
+          if (end < result.size())
+            result[end] = std::max(result[end], of_bonds[slot]);
     return result;
   }
 
   template <int dim>
   void CorrespondenceForce<dim>::break_bonds()
   {
-    const std::vector<double> values  = utilisations();
+    const std::vector<double> values  = utilisation_of_bonds();
     const double              largest = dealii::Utilities::MPI::max(
       values.empty() ? 0. : *std::max_element(values.begin(), values.end()), families->communicator);
     released = 0;

@@ -53,6 +53,7 @@ namespace perideal
     double              strain_energy() const override;
     double              released_energy(const NodalVector &velocity, const double time_step) const override;
     std::vector<double> dilatation() const override;
+    std::vector<double> utilisation() const override;
     std::size_t         memory_consumption() const override;
 
     /// Not for this model: bonds carry the stresses of whole families.
@@ -88,12 +89,12 @@ namespace perideal
     /// Breaks the bonds beyond their strength. Collective.
     void break_bonds();
     /// Utilisation of the bonds by slot; zero of those that cannot break. Collective.
-    std::vector<double> utilisations() const;
+    std::vector<double> utilisation_of_bonds() const;
     double              energy_of(const std::vector<LocalIndex> &nodes) const;
 
     std::shared_ptr<CorrespondenceRows<dim>> rows;
     LawsOfNodes<dim>                         laws;
-    Utilisation                              utilisation;
+    Utilisation                              of_stress;
     std::vector<bool>                        is_gone;
     /// Owned nodes whose families lost bonds.
     std::vector<LocalIndex> changed;
