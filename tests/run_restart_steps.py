@@ -25,6 +25,8 @@ BAR = ["Mesh/Cells=30, 6", "Solver/Load steps=10"]
 PLATE = ["Mesh/Cells=40, 20", "Solver/Name=dynamic relaxation", "Solver/Tolerance=1e-8", "Solver/Load steps=4"]
 # Bonds soften from step 16 on; the loads are an unknown.
 SLIT = ["Mesh/Cells=24, 24"]
+# The mesh changes from step 18 on.
+ADAPTED = ["Mesh/Cells=12, 12", "Adaptation/Levels=1"]
 # How the solver came to the same equilibrium.
 WAY = ("iterations", "linear iterations", "residual [-]")
 RESTART = ["Checkpoints/Restart=true"]
@@ -123,6 +125,24 @@ def check_plate(runs):
     runs.run("two", ranks=2, overrides=["Checkpoints/Steps=3"])
     runs.run("two", overrides=RESTART)
     expect_other_ranks_close(runs, "two", "whole")
+
+
+def check_adapted(runs):
+    """A mesh that changes as bonds soften, killed between changes, and gone on with by two ranks."""
+    runs.run("whole")
+    whole = summary(runs, "whole")
+    steps, meshes = whole["solver"]["steps"], len(whole["adaptation"])
+    if meshes < 3:
+        raise Failure(f"the path has {meshes} meshes")
+    runs.stop("killed", signal.SIGKILL, 21, overrides=["Checkpoints/Steps=21"])
+    runs.run("killed", overrides=RESTART)
+    expect_same(runs, "killed", "whole", steps)
+    runs.stop("two", signal.SIGKILL, 21, overrides=["Checkpoints/Steps=21"])
+    runs.run("two", ranks=2, overrides=RESTART)
+    two = summary(runs, "two")
+    for figure in ("dissipated", "external"):
+        if abs(two["energy"][figure] / whole["energy"][figure] - 1) > 0.02:
+            raise Failure(f"{figure} energy of two ranks {two['energy'][figure]}, of one {whole['energy'][figure]}")
 
 
 def check_slit(runs):

@@ -59,16 +59,15 @@ namespace perideal
       refuse(
         levels,
         "Thermal strain/Temperature",
-        [](const Scene &s) {
-          return s.adaptation.is_by_need() && !s.loads.temperature.empty();
-        },
+        [](const Scene &s) { return s.adaptation.is_by_need() && !s.loads.temperature.empty(); },
         "what heating did to cells is not carried to halves of these",
         "0 with Thermal strain/Temperature"),
       refuse(
         levels,
         "neither bonds that can fail, nor Precracks, nor Adaptation/Refine where",
         [](const Scene &s) {
-          return s.adaptation.is_by_need() && !can_break(s) && s.precracks.cracks.empty() && s.adaptation.where.empty();
+          return s.adaptation.is_by_need() && !can_break(s) && s.precracks.cracks.empty() &&
+                 s.adaptation.where.empty();
         },
         "nothing says where cells are to be smaller",
         "0 for this scene",

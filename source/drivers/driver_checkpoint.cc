@@ -49,7 +49,7 @@ namespace perideal
     std::vector<std::string> refined_cells_as_text(const Mesh<dim> &mesh)
     {
       std::vector<std::string> result;
-      for (const dealii::CellId &cell : mesh.adapted)
+      for (const dealii::CellId &cell : mesh.adapted.refined)
         result.push_back(cell.to_string());
       return result;
     }

@@ -55,7 +55,8 @@ namespace perideal
           problem, state_after(problem, step, time), nodes_of_state(problem), change.need->is_quiet);
         if (change.state->has_failed_larger_cells(*problem.body.mesh, problem.parameters.adaptation.levels))
           problem.run.warn(
-            "bonds failed in cells that were not yet as small as Adaptation/Levels lets them be, and take more "
+            "bonds failed in cells that were not yet as small as Adaptation/Levels lets them be, and take "
+            "more "
             "energy than they should: take a smaller Adaptation/Refine from, a larger Reach, shorter steps");
         if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
           {

@@ -155,7 +155,7 @@ namespace perideal
       if (!mesh.adapted.empty())
         return;
       mesh.description += ", adapted";
-      mesh.refined_before = refined_cells(mesh.triangulation);
+      mesh.adapted.before = refined_cells(mesh.triangulation);
     }
   } // namespace
 
@@ -190,7 +190,7 @@ namespace perideal
   {
     begin_to_adapt(mesh);
     mesh.triangulation.execute_coarsening_and_refinement();
-    mesh.adapted = refined_cells(mesh.triangulation);
+    mesh.adapted.refined = refined_cells(mesh.triangulation);
     check_refined_mesh(mesh.triangulation, mesh.description);
   }
 
@@ -201,7 +201,7 @@ namespace perideal
     if (mesh.adapted.empty())
       return result;
     for (auto child = cell; child->level() > 0; child = child->parent())
-      if (mesh.refined_before.count(child->parent()->id()) == 0)
+      if (mesh.adapted.before.count(child->parent()->id()) == 0)
         ++result;
     return result;
   }
@@ -210,7 +210,7 @@ namespace perideal
   void adapt_like(const std::set<dealii::CellId> &adapted, Mesh<dim> &mesh)
   {
     begin_to_adapt(mesh);
-    mesh.adapted = adapted;
+    mesh.adapted.refined = adapted;
     refine_like(adapted, mesh.triangulation);
   }
 

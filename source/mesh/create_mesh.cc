@@ -139,7 +139,7 @@ namespace perideal
       --(globally > 0 ? globally : locally.times);
     copy.refine_global(globally);
     refine_locally(locally, copy);
-    refine_like(mesh.adapted, copy);
+    refine_like(mesh.adapted.refined, copy);
     if (coarsens && !mesh.adapted.empty())
       {
         for (const auto &cell : copy.active_cell_iterators())

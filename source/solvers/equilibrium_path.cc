@@ -244,20 +244,6 @@ namespace perideal
   }
 
   template <int dim>
-  EquilibriumStep
-  EquilibriumPath<dim>::come_to_rest(const NodalVector &external, const double time, const Progress &progress)
-  {
-    const EnergyBudget before = last.energy;
-    bonds.judge_bonds(Judgement::none);
-    failure_waits                = true;
-    const EquilibriumStep result = step(external, time, progress);
-    failure_waits                = false;
-    bonds.judge_bonds(Judgement::on_trial);
-    last.energy.switched += before.strain - last.energy.strain + last.energy.external - before.external;
-    return result;
-  }
-
-  template <int dim>
   GlobalIndex EquilibriumPath<dim>::judge(const NodalVector &external)
   {
     bonds.judge_bonds(Judgement::for_good);

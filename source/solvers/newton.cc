@@ -189,10 +189,10 @@ namespace perideal
   template <int dim>
   bool NewtonSolver<dim>::iterate(const NodalVector &external, EquilibriumStep &result)
   {
-    if (in_place && this->bonds.softening_bonds().softens() && !this->failure_waits)
+    if (in_place && this->bonds.softening_bonds().softens() && !this->breaks.wait)
       return iterate_softening(external, result);
     if (in_place)
-      tangent.linearise(this->bonds, this->failure_waits);
+      tangent.linearise(this->bonds, this->breaks.wait);
     if (!solve(result))
       return false;
     if (in_place && search(external))

@@ -22,6 +22,17 @@ namespace perideal
   template <int dim>
   using InnerFaces = std::map<std::string, std::vector<std::vector<dealii::Point<dim>>>>;
 
+  /// The cells of all ranks that have children.
+  struct AdaptedCells
+  {
+    /// Where the mesh was adapted; none where it was not.
+    std::set<dealii::CellId> refined;
+    /// Before it was.
+    std::set<dealii::CellId> before;
+
+    bool empty() const { return refined.empty(); }
+  };
+
   /// Holds the user's mesh: a p4est-distributed triangulation and the names of its groups.
   template <int dim>
   class Mesh
@@ -48,10 +59,8 @@ namespace perideal
     unsigned int refinements = 0;
     /// Refinements towards boundaries after that.
     LocalRefinement local_refinement;
-    /// Cells of all ranks that have children where the mesh was adapted after that; empty where it was not.
-    std::set<dealii::CellId> adapted;
-    /// Of these, the ones that had children before that.
-    std::set<dealii::CellId> refined_before;
+    /// How it was adapted after that.
+    AdaptedCells adapted;
     /// Thickness of a two-dimensional body [m]; 1 in 3-D.
     double thickness = 1.;
     /// One line for the banner: where the mesh comes from and its cells.

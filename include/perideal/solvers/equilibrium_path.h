@@ -9,6 +9,7 @@
 #include <perideal/output/lasting_state.h>
 #include <perideal/solvers/explicit_dynamics.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -152,8 +153,8 @@ namespace perideal
     /// have these stiffnesses by component [N/m].
     void set_rounding(const NodalVector &stiffness);
 
-    /// Keeps the present state as an equilibrium: its energies, forces and largest load. Collective.
-    void settle(const NodalVector &external, const Norms &norms);
+    /// Keeps the present state as an equilibrium: its energies and forces. Collective.
+    void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
 
     /// What has gone since the last equilibrium of the work done on the body, by the trapezoidal rule, and is
     /// not in its bonds [J]. Collective.
@@ -181,9 +182,6 @@ namespace perideal
     };
     Rounding rounding;
 
-    /// While bonds stay as they are, whatever they bear.
-    bool failure_waits = false;
-
     /// Bonds broken since the beginning, and whether some broke in this step, and since the last equilibrium.
     struct Breaks
     {
@@ -191,6 +189,8 @@ namespace perideal
       bool        in_step = false, in_segment = false;
       /// Bonds softened for good in the last iteration.
       bool in_iteration = false;
+      /// Bonds stay as they are, whatever they bear.
+      bool wait = false;
       /// What softening may dissipate in a step, which fails if it is more [J].
       double most_dissipated = std::numeric_limits<double>::infinity();
     };
@@ -204,6 +204,9 @@ namespace perideal
       std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
       EnergyBudget                        energy;
       double                              largest_load = 0;
+
+      /// Notes loads and reactions.
+      void note(const Norms &norms) { largest_load = std::max({largest_load, norms.reaction, norms.load}); }
     };
     Equilibrium last;
 
@@ -212,8 +215,6 @@ namespace perideal
     void keep(const NodalVector &external, const NodalVector &internal);
     /// Work of loads and supports since the last equilibrium, by the trapezoidal rule [J]. Collective.
     double work_since(const NodalVector &external, const NodalVector &internal) const;
-    /// Work and energies between the last equilibrium and this one.
-    void balance(const NodalVector &external, const NodalVector &internal, const double strain_energy);
   };
 } // namespace perideal
 
