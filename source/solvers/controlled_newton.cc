@@ -128,7 +128,8 @@ namespace perideal
             // Bonds that soften have carried by then what they carry once they are judged.
             if (softens || n_broken == 0)
               {
-                this->settle(external, norms);
+                last.note(norms);
+                this->balance(external, this->force, this->bonds.strain_energy());
                 keep_step(change);
                 result.converged = true;
                 return result;

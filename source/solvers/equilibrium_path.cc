@@ -82,7 +82,7 @@ namespace perideal
     breaks.in_step = false;
     EquilibriumStep result;
     unsigned int    since_break = 0;
-    const bool      can_break   = controls.bonds_break && !failure_waits;
+    const bool      can_break   = controls.bonds_break && !breaks.wait;
     bool            judged      = !can_break;
     compute_forces();
     while (true)
@@ -118,14 +118,15 @@ namespace perideal
             judged = now == 0;
             if (now > 0)
               {
-                last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
-                since_break       = 0;
+                last.note(norms);
+                since_break = 0;
                 continue;
               }
           }
         if (at_rest)
           {
-            settle(external, norms);
+            last.note(norms);
+            balance(external, force, bonds.strain_energy());
             result.converged = true;
             return result;
           }
@@ -244,6 +245,20 @@ namespace perideal
   }
 
   template <int dim>
+  EquilibriumStep
+  EquilibriumPath<dim>::come_to_rest(const NodalVector &external, const double time, const Progress &progress)
+  {
+    const EnergyBudget before = last.energy;
+    bonds.judge_bonds(Judgement::none);
+    breaks.wait                  = true;
+    const EquilibriumStep result = step(external, time, progress);
+    breaks.wait                  = false;
+    bonds.judge_bonds(Judgement::on_trial);
+    last.energy.switched += before.strain - last.energy.strain + last.energy.external - before.external;
+    return result;
+  }
+
+  template <int dim>
   GlobalIndex EquilibriumPath<dim>::judge(const NodalVector &external)
   {
     bonds.judge_bonds(Judgement::for_good);
@@ -264,13 +279,6 @@ namespace perideal
     balance(external, earlier_force, bonds.strain_energy() + bonds.released_energy(no_velocity, 0.));
     breaks.in_step = breaks.in_segment = true;
     return now;
-  }
-
-  template <int dim>
-  void EquilibriumPath<dim>::settle(const NodalVector &external, const Norms &norms)
-  {
-    last.largest_load = std::max({last.largest_load, norms.reaction, norms.load});
-    balance(external, force, bonds.strain_energy());
   }
 
   template <int dim>
