@@ -95,3 +95,35 @@ TEST(Adaptation, RefinesTheCellsWithMostOfTheError)
   EXPECT_NEAR(figures.smallest_size, 0.125, 1e-12);
   EXPECT_NE(mesh->description.find(", adapted"), std::string::npos);
 }
+
+TEST(Adaptation, CountsHalvingsAndIsRepeated)
+{
+  const auto mesh = test::generate<2>("box", {2, 2}, {1., 1.}, 1);
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    EXPECT_EQ(halvings(*mesh, cell), 0u) << "refined before the mesh adapts";
+  adapt_to_corner(*mesh);
+  unsigned int most = 0;
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      {
+        EXPECT_EQ(halvings(*mesh, cell), static_cast<unsigned int>(cell->level()) - 1u);
+        most = std::max(most, halvings(*mesh, cell));
+      }
+  EXPECT_EQ(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 2u);
+
+  const auto again = test::generate<2>("box", {2, 2}, {1., 1.}, 1);
+  adapt_like(mesh->adapted.refined, *again);
+  EXPECT_EQ(cells_of(again->triangulation), cells_of(mesh->triangulation));
+  EXPECT_EQ(again->adapted.before, mesh->adapted.before);
+
+  // Cells that are joined count less.
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      cell->set_coarsen_flag();
+  refine_marked(*mesh);
+  most = 0;
+  for (const auto &cell : mesh->triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      most = std::max(most, halvings(*mesh, cell));
+  EXPECT_EQ(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 1u);
+}

@@ -6,6 +6,7 @@
 #include "springs.h"
 #include "testing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,16 @@ namespace
                                           SofteningLaw("bilinear"),
                                           [](const LocalIndex, const LocalIndex) { return 0.02; });
     whole.bonds->compute(whole.force, motion);
+
+    // Bonds that are not judged bear whatever they must.
+    softening.bonds->judge_bonds(Judgement::none);
+    softening.bonds->compute(softening.force, motion);
+    softening.force -= whole.force;
+    EXPECT_LE(softening.force.linfty_norm(), 1e-14 * whole.force.linfty_norm());
+    const std::vector<double> utilisation = softening.bonds->utilisation();
+    const double              largest =
+      utilisation.empty() ? 0. : *std::max_element(utilisation.begin(), utilisation.end());
+    EXPECT_GT(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD), 1.);
 
     softening.bonds->judge_bonds(Judgement::on_trial);
     NodalVector on_trial(motion);
