@@ -110,17 +110,21 @@ namespace perideal
 
     /// Brings a mesh to the cells that the last checkpoint was written on; one that cannot be read is
     /// complained of where its state is read. Collective.
+    /// @return the time of the checkpoint [s], or of load steps; zero of one that cannot be read
     template <int dim>
-    void refine_as_in_checkpoint(const std::string &directory, Mesh<dim> &mesh)
+    double refine_as_in_checkpoint(const std::string &directory, Mesh<dim> &mesh)
     {
       const auto pointer = CheckpointPointer::read(directory, mesh.triangulation.get_communicator());
+      double     time    = 0;
       if (!pointer.problem.empty())
-        return;
+        return time;
       std::set<dealii::CellId> adapted;
       try
         {
           const CheckpointFile file(directory + "/" + pointer.file, pointer.checksum);
-          for (const auto &cell : file.header().at("content").at("refined cells"))
+          const auto          &content = file.header().at("content");
+          time                         = content.at("time").get<double>();
+          for (const auto &cell : content.at("refined cells"))
             adapted.insert(dealii::CellId(cell.get<std::string>()));
         }
       catch (const hdf5::Unreadable &)
@@ -130,6 +134,7 @@ namespace perideal
         {
         }
       adapt_like(adapted, mesh);
+      return time;
     }
 
     /// Runs on meshes that change while the scene goes on.
@@ -141,11 +146,12 @@ namespace perideal
       MeshChange<dim>            change;
       EarlierRun                 earlier;
       AdaptationTable            table(communicator);
+      double                     time = 0;
       {
         Problem<dim> problem(parameters, context, communicator);
         problem.body.make_mesh(context.scene_directory, communicator);
         if (parameters.checkpoints.restart)
-          refine_as_in_checkpoint(parameters.output_directory, *problem.body.mesh);
+          time = refine_as_in_checkpoint(parameters.output_directory, *problem.body.mesh);
         else
           {
             const auto driver = create_driver(problem);
@@ -159,7 +165,6 @@ namespace perideal
         change.state->change(*mesh, *change.need, levels);
       while (true)
         {
-          double time = 0;
           {
             Problem<dim> problem(parameters, context, communicator);
             problem.run.go_on(earlier);
