@@ -170,6 +170,7 @@ def main():
         ("hyperelastic_bar", BAR, check_bar),
         ("pdbc_1_mixed", PLATE, check_plate),
         ("slit_square", SLIT, check_slit),
+        ("slit_square", ADAPTED, check_adapted),
     )
     for name, base, check in scenes:
         with tempfile.TemporaryDirectory() as directory:

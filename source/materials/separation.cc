@@ -147,6 +147,22 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<double> Separation<dim>::of_continuum() const
+  {
+    const dealii::SymmetricTensor<2, dim> inverse = invert(by_normal);
+    std::vector<double>                   squares(family.size);
+    for (LocalIndex j = 0; j < family.size; ++j)
+      {
+        Vector bond;
+        for (int d = 0; d < dim; ++d)
+          bond[d] = family.bond[d][j];
+        // |n.xi| summed over the ellipsoid xi = G omega is |G n|.
+        squares[j] = std::pow((inverse * bond).norm() / bond.norm(), -(dim + 1)) / determinant(by_normal);
+      }
+    return squares;
+  }
+
+  template <int dim>
   std::vector<double> Separation<dim>::calibrate(const BondFailing         &how,
                                                  const std::vector<Vector> &normals,
                                                  const unsigned int         n_steps)
@@ -156,18 +172,9 @@ namespace perideal
     // Share of the mean square of the rows that keeps stretches alike, and what a step may change.
     constexpr double regularisation = 0.01, largest_change = 0.3;
 
-    std::vector<double> squares(family.size, 0.), by_member;
     if (normals.empty())
-      return squares;
-    const dealii::SymmetricTensor<2, dim> inverse = invert(by_normal);
-    for (LocalIndex j = 0; j < family.size; ++j)
-      {
-        Vector bond;
-        for (int d = 0; d < dim; ++d)
-          bond[d] = family.bond[d][j];
-        // As bonds without number would: |n.xi| summed over the ellipsoid xi = G omega is |G n|.
-        squares[j] = std::pow((inverse * bond).norm() / bond.norm(), -(dim + 1)) / determinant(by_normal);
-      }
+      return std::vector<double>(family.size, 0.);
+    std::vector<double> squares = of_continuum(), by_member;
     if (how.first > 0)
       {
         // Where bonds soften from a given stretch on, their share depends on how large the others are.

@@ -79,6 +79,10 @@ namespace perideal
     /// @param by_member gets what each break adds to it
     double energy(const Vector &normal, const std::vector<double> &squares, std::vector<double> &by_member);
 
+    /// Returns the squares of the critical stretches of bonds without number, by which planes of all normals
+    /// n take |G n|, over that of the mean of all directions, by member [-].
+    std::vector<double> of_continuum() const;
+
     /**
      * Returns the squares of critical stretches over the energy that a unit of area is to take, by member
      * [m^2/J]: with one stretch for all, on the mean over planes normal to the bonds; and from there in steps

@@ -58,9 +58,10 @@ namespace perideal
       result.first = std::max(failing.first, least_first * fracture.of_strength);
       if (how.of_continuum)
         {
-          const double least = least_share * how.of_continuum(material, family.horizon);
-          for (double &square : result.squares)
-            square = std::max(square, least);
+          const double              least        = least_share * how.of_continuum(material, family.horizon);
+          const std::vector<double> of_continuum = separation.of_continuum();
+          for (unsigned int j = 0; j < result.squares.size(); ++j)
+            result.squares[j] = std::max(result.squares[j], least * of_continuum[j]);
         }
       if (how.with_shares)
         result.shares = separation.by_direction(result.squares, failing);
