@@ -49,7 +49,12 @@ namespace perideal
 
   template <int dim>
   Mesh<dim>::Mesh(MPI_Comm communicator)
-    : triangulation(communicator, dealii::Triangulation<dim>::none)
+    // Cells stand in the order that their forest gives, whatever was halved and joined before: a run goes on
+    // from a checkpoint to the last bit.
+    : triangulation(
+        communicator,
+        dealii::Triangulation<dim>::none,
+        dealii::parallel::distributed::Triangulation<dim>::mesh_reconstruction_after_repartitioning)
   {
   }
 
