@@ -1,373 +1,46 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-# The sources of the library: every file by name, room by room from the lowest floor. With PERIDEAL_UNITY neighbours in
-# this list are compiled as one. Files that define the same name in their unnamed namespaces, instantiate the same class
-# or define the same macro are kept apart by unity_groups.cmake: a new file needs a line here and no more. Where a group
-# does not compile, mostly a name in an unnamed namespace is also that of a public class or function: give it one of its
-# own.
-set(perideal_sources
-  base/child_process.cc
-  base/exceptions.cc
-  base/find_file.cc
-  base/finite.cc
-  base/hdf5.cc
-  base/input_errors.cc
-  base/least_squares.cc
-  base/python_tool.cc
-  base/registry.cc
-  base/rendezvous.cc
-  base/rigid_body_motions.cc
-  base/stop_request.cc
-  base/timing.cc
-  base/versions.cc
-  base/work_progress.cc
+# Adds the files of a room to perideal_sources, and those of its LOOPS, in which runs spend their time, to
+# perideal_loops too. Each room lists its files by name in its own sources.cmake.
+function(perideal_room room)
+  cmake_parse_arguments(PARSE_ARGV 1 room "" "" "SOURCES;LOOPS")
+  if(room_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "${room}/sources.cmake: neither SOURCES nor LOOPS: ${room_UNPARSED_ARGUMENTS}")
+  endif()
+  list(TRANSFORM room_SOURCES PREPEND "${room}/")
+  list(TRANSFORM room_LOOPS PREPEND "${room}/")
+  set(perideal_sources ${perideal_sources} ${room_SOURCES} ${room_LOOPS} PARENT_SCOPE)
+  set(perideal_loops ${perideal_loops} ${room_LOOPS} PARENT_SCOPE)
+endfunction()
 
-  parameters/areal_force_parameters.cc
-  parameters/declarations.cc
-  parameters/elastic_constants.cc
-  parameters/elastic_solid.cc
-  parameters/elastic_symmetry.cc
-  parameters/engineering_constants.cc
-  parameters/expanded_law.cc
-  parameters/face_rotation.cc
-  parameters/gauge_parameters.cc
-  parameters/hencky.cc
-  parameters/hyperelastic_law.cc
-  parameters/linear_elastic.cc
-  parameters/load_parameters.cc
-  parameters/loads.cc
-  parameters/make_solid.cc
-  parameters/material_parameters.cc
-  parameters/neo_hookean.cc
-  parameters/parameter_file.cc
-  parameters/point_text.cc
-  parameters/probe_parameters.cc
-  parameters/saint_venant_kirchhoff.cc
-  parameters/scattered_field.cc
-  parameters/softening.cc
-  parameters/space_time_function.cc
-  parameters/stress_criteria.cc
-  parameters/table_calls.cc
-  parameters/tables.cc
-
-  geometry/body_rays.cc
-  geometry/cell_in_ball.cc
-  geometry/cell_sections.cc
-  geometry/facets.cc
-
-  mesh/abaqus_deck.cc
-  mesh/abaqus_lines.cc
-  mesh/abaqus_to_gmsh.cc
-  mesh/adaptation.cc
-  mesh/create_mesh.cc
-  mesh/generators.cc
-  mesh/gmsh_elements.cc
-  mesh/gmsh_inner_faces.cc
-  mesh/gmsh_lines.cc
-  mesh/gmsh_scan.cc
-  mesh/local_refinement.cc
-  mesh/manifolds.cc
-  mesh/mesh.cc
-  mesh/mesh_checks.cc
-  mesh/mesh_file.cc
-  mesh/mesh_parameters.cc
-  mesh/parent_mesh.cc
-  mesh/plate_with_hole.cc
-  mesh/plate_with_hole_grid.cc
-  mesh/point_location.cc
-  mesh/read_gmsh.cc
-  mesh/run_gmsh.cc
-
-  nodes/boundary_nodes.cc
-  nodes/cell_graph.cc
-  nodes/cell_keys.cc
-  nodes/mesh_points.cc
-  nodes/curve_order.cc
-  nodes/nodes.cc
-
-  fem/algebraic_multigrid.cc
-  fem/cell_integrals.cc
-  fem/displacement_constraints.cc
-  fem/displacement_space.cc
-  fem/elastic_fem.cc
-  fem/elastic_fem_results.cc
-  fem/external_forces.cc
-  fem/finite_strain_integrals.cc
-  fem/hyperelastic_fem.cc
-  fem/hyperelastic_fem_newton.cc
-  fem/point_evaluation.cc
-  fem/polynomial_multigrid.cc
-  fem/support_points.cc
-
-  neighbourhood/bond_list.cc
-  neighbourhood/components.cc
-  neighbourhood/connected_parts.cc
-  neighbourhood/families.cc
-  neighbourhood/halo.cc
-  neighbourhood/point_tree.cc
-  neighbourhood/precrack.cc
-  neighbourhood/whole_families.cc
-
-  quadrature/adaptive_integration.cc
-  quadrature/bond_volume.cc
-  quadrature/bonds_through_plane.cc
-  quadrature/cell_shares.cc
-  quadrature/gauss_points.cc
-  quadrature/moving_least_squares.cc
-  quadrature/quadrature_parameters.cc
-  quadrature/regular_body.cc
-
-  reconstruction/elastic_fit.cc
-  reconstruction/cell_polynomials.cc
-  reconstruction/corner_fit.cc
-  reconstruction/face_gradient.cc
-  reconstruction/face_moments.cc
-  reconstruction/family_fit.cc
-  reconstruction/family_quadratics.cc
-  reconstruction/linear_interpolation.cc
-  reconstruction/point_interpolation.cc
-  reconstruction/polynomial_closure.cc
-  reconstruction/quadratic_fit.cc
-
-  output/boundary_curve.cc
-  output/checkpoint.cc
-  output/checkpoint_file.cc
-  output/errors.cc
-  output/field_output.cc
-  output/field_sink.cc
-  output/files.cc
-  output/history.cc
-  output/lasting_state.cc
-  output/paraview_state.cc
-  output/pictures.cc
-  output/profiles.cc
-  output/progress.cc
-  output/summary.cc
-  output/vtu_text.cc
-
-  materials/bond_based.cc
-  materials/boundary_compensation.cc
-  materials/bulk_strength.cc
-  materials/conical_bond_based.cc
-  materials/consistent.cc
-  materials/correspondence.cc
-  materials/elastic_state.cc
-  materials/extended_ordinary.cc
-  materials/influence_function.cc
-  materials/lattice.cc
-  materials/linear_model.cc
-  materials/models.cc
-  materials/moment_conditions.cc
-  materials/ordinary.cc
-  materials/separation.cc
-  materials/tensor_involved.cc
-
-  fracture/crack_branching.cc
-  fracture/crack_path.cc
-  fracture/crack_tips.cc
-  fracture/crack_tracker.cc
-  fracture/domain_integral.cc
-  fracture/floating_nodes.cc
-  fracture/fragments.cc
-  fracture/no_fail_zones.cc
-
-  boundary/body_forces.cc
-  boundary/boundary_faces.cc
-  boundary/cell_expansion.cc
-  boundary/dirichlet_nodes.cc
-  boundary/face_tractions.cc
-  boundary/face_values.cc
-  boundary/gauges.cc
-  boundary/line_to_point.cc
-  boundary/mirror_layer.cc
-  boundary/nodal_strain.cc
-  boundary/point_forces.cc
-  boundary/published_transfer.cc
-  boundary/surface_nodes.cc
-  boundary/surface_planes.cc
-  boundary/surface_recovery.cc
-  boundary/taylor_fit.cc
-  boundary/transfer_functions.cc
-
-  operators/weights/bond_weights.cc
-  operators/weights/calibrated_stretches.cc
-  operators/weights/consistent_bonds.cc
-  operators/weights/correspondence_rows.cc
-  operators/weights/correspondence_rows_matrix.cc
-  operators/weights/equal_families.cc
-  operators/weights/family_weights.cc
-  operators/weights/gradient_moments.cc
-  operators/weights/gradient_moments_loops.cc
-  operators/weights/gradient_rows.cc
-  operators/weights/gradient_rows_exchange.cc
-  operators/weights/tensor_weights.cc
-
-  operators/force/breaking_bonds.cc
-  operators/force/breaking_bonds_start.cc
-  operators/force/contact_force.cc
-  operators/force/contact_parameters.cc
-  operators/force/consistent_force.cc
-  operators/force/correspondence_force.cc
-  operators/force/family_force.cc
-  operators/force/fracture_zone.cc
-  operators/force/intact_gradients.cc
-  operators/force/family_force_energy.cc
-  operators/force/family_force_failure.cc
-  operators/force/family_force_loops.cc
-  operators/force/family_force_reweigh.cc
-  operators/force/relative_damping.cc
-  operators/force/rest_regions.cc
-  operators/force/softening_bonds.cc
-  operators/force/stress_onset.cc
-  operators/force/tensor_force.cc
-  operators/force/zoned_force.cc
-
-  operators/linear/bond_operator.cc
-  operators/linear/bond_blocks.cc
-  operators/linear/consistent_operator.cc
-  operators/linear/consistent_operator_loops.cc
-  operators/linear/consistent_operator_matrix.cc
-  operators/linear/correspondence_tangent.cc
-  operators/linear/deformed_cells.cc
-  operators/linear/face_springs.cc
-  operators/linear/family_operator.cc
-  operators/linear/family_operator_loops.cc
-  operators/linear/family_operator_matrix.cc
-  operators/linear/gauss_operator.cc
-  operators/linear/nodal_springs.cc
-  operators/linear/polynomial_response.cc
-  operators/linear/surface_cure.cc
-  operators/linear/tangent_operator.cc
-  operators/linear/taylor_extension.cc
-  operators/linear/tensor_operator.cc
-  operators/linear/zoned_tangent.cc
-
-  operators/system/assembled_matrix.cc
-  operators/system/auxiliary_space.cc
-  operators/system/block_jacobi.cc
-  operators/system/constrained_operator.cc
-  operators/system/null_space.cc
-  operators/system/stable_time_step.cc
-
-  operators/post/areal_force_density.cc
-  operators/post/error_estimate.cc
-  operators/post/mirror_reactions.cc
-  operators/post/partial_stress.cc
-
-  solvers/controlled_newton.cc
-  solvers/dynamic_relaxation.cc
-  solvers/equilibrium_path.cc
-  solvers/explicit_dynamics.cc
-  solvers/linear_solver.cc
-  solvers/newton.cc
-  solvers/preconditioner_choice.cc
-  solvers/solver_parameters.cc
-  solvers/tangent_solver.cc
-
-  treatments/face_value.cc
-  treatments/layer.cc
-  treatments/line_to_point.cc
-  treatments/mirror.cc
-  treatments/published_transfer.cc
-  treatments/reference.cc
-  treatments/supports.cc
-  treatments/surface_nodes.cc
-  treatments/taylor_ghosts.cc
-  treatments/tractions.cc
-  treatments/transfer.cc
-  treatments/treatments.cc
-
-  problem/advice.cc
-  problem/advice_cells.cc
-  problem/advice_cracks.cc
-  problem/advice_surfaces.cc
-  problem/body.cc
-  problem/bond_limits.cc
-  problem/cell_gradients.cc
-  problem/crack_driving.cc
-  problem/description.cc
-  problem/discrete_body.cc
-  problem/discrete_body_weights.cc
-  problem/elastic_states.cc
-  problem/failure.cc
-  problem/finite_elements.cc
-  problem/free_motions.cc
-  problem/load_resultants.cc
-  problem/loading.cc
-  problem/make_gauges.cc
-  problem/mesh_error.cc
-  problem/output_fields.cc
-  problem/problem.cc
-  problem/run.cc
-  problem/scene_parameters.cc
-  problem/vertex_displacement.cc
-
-  recorders/areal_forces.cc
-  recorders/boundary_stress.cc
-  recorders/comparison.cc
-  recorders/crack_figures.cc
-  recorders/cracks.cc
-  recorders/damage.cc
-  recorders/discretisation_error.cc
-  recorders/displacements.cc
-  recorders/energy.cc
-  recorders/finite_elements.cc
-  recorders/gauges.cc
-  recorders/iterations.cc
-  recorders/line_values.cc
-  recorders/load_resultants.cc
-  recorders/make_recorders.cc
-  recorders/point_values.cc
-  recorders/probes.cc
-  recorders/reactions.cc
-  recorders/recorders.cc
-  recorders/report.cc
-  recorders/validity.cc
-
-  drivers/adaptive_run.cc
-  drivers/create_driver.cc
-  drivers/driver.cc
-  drivers/driver_check.cc
-  drivers/driver_checkpoint.cc
-  drivers/dynamics_driver.cc
-  drivers/equilibrium_driver.cc
-  drivers/failed_step.cc
-  drivers/floating_nodes.cc
-  drivers/heating.cc
-  drivers/initial_motion.cc
-  drivers/load_control.cc
-  drivers/motion_check.cc
-  drivers/motion_forces.cc
-  drivers/motion_steps.cc
-  drivers/preconditioning.cc
-  drivers/static_driver.cc
-
-  application/command_line.cc
-  application/compare.cc
-  application/conditional_settings.cc
-  application/gate.cc
-  application/plot.cc
-  application/print_parameters.cc
-  application/process_scene.cc
-  application/read_scene.cc
-  application/rules.cc
-  application/rules_adaptation.cc
-  application/rules_failure.cc
-  application/rules_loads.cc
-  application/rules_model.cc
-  application/rules_output.cc
-  application/rules_quadrature.cc
-  application/rules_solver.cc
-  application/rules_treatments.cc
-  application/sweep.cc
-  mesh/mesh_joints.cc
-  application/combinations.cc
-  application/new_scene.cc
-  application/reference.cc
-  problem/carried_state.cc
-  problem/mesh_need.cc
-  drivers/mesh_adaptation.cc
-  problem/carried_state_mesh.cc
-  problem/present_state.cc
-  drivers/tangent_system.cc
-)
+# The rooms from the lowest floor. With PERIDEAL_UNITY neighbours in these lists are compiled as one. Files that define
+# the same name in their unnamed namespaces, instantiate the same class or define the same macro are kept apart by
+# unity_groups.cmake: a new file needs a line in the list of its room and no more. Where a group does not compile,
+# mostly a name in an unnamed namespace is also that of a public class or function: give it one of its own.
+foreach(room IN ITEMS
+  base
+  parameters
+  geometry
+  mesh
+  nodes
+  fem
+  neighbourhood
+  quadrature
+  reconstruction
+  output
+  materials
+  fracture
+  boundary
+  operators/weights
+  operators/force
+  operators/linear
+  operators/system
+  operators/post
+  solvers
+  treatments
+  problem
+  recorders
+  drivers
+  application)
+  include(${room}/sources.cmake)
+endforeach()

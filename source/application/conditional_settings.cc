@@ -20,6 +20,7 @@ namespace perideal
         {{"Solver/End time",
           "Solver/Time step",
           "Solver/Time step safety",
+          "Solver/Local step ratio",
           "Solver/Integrator",
           "Solver/Damping",
           "Output/Frames",

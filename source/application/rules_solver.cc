@@ -105,6 +105,13 @@ namespace perideal
       };
     }
 
+    /// Whether the body is held together by bonds along themselves, weighed once.
+    bool has_families_of_bonds(const ModelParameters &model)
+    {
+      return !model.has_cell_strains() && !model.is_correspondence() && !model.is_tensor_involved() &&
+             !model.recomputes();
+    }
+
     Rule of_dynamics(const std::string &parameter, const Rule::Breaches &breaches)
     {
       return refuse_each(parameter,
@@ -181,6 +188,21 @@ namespace perideal
         },
         "damping between nodes is that of bonds that carry the body's forces",
         "0 for Material/Form = consistent",
+        "set Solver/Damping"),
+      refuse(
+        "Solver/Local step ratio",
+        "Solver/Local step ratio > 1, with Material/Form = consistent, Model = correspondence | tensor "
+        "involved or Multipliers = recomputed",
+        [](const Scene &s) { return s.solver.local_step_ratio > 1 && !has_families_of_bonds(s.model); },
+        "steps are those of families of bonds, which this model or form has not, or weighs anew",
+        "1",
+        "set Material/Form = energy"),
+      refuse(
+        "Solver/Local step ratio",
+        "Solver/Local step ratio > 1, with Solver/Relative damping > 0",
+        [](const Scene &s) { return s.solver.local_step_ratio > 1 && s.solver.relative_damping > 0; },
+        "damping against the family acts in every step",
+        "1",
         "set Solver/Damping"),
       of_dynamics("Boundary conditions/NAME/v_x, v_y, v_z", velocities_of_conditions),
       of_dynamics("Initial conditions/u_x, u_y, u_z, v_x, v_y, v_z", initial_conditions),

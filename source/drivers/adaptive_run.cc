@@ -146,7 +146,8 @@ namespace perideal
       MeshChange<dim>            change;
       EarlierRun                 earlier;
       AdaptationTable            table(communicator);
-      double                     time = 0;
+      const auto                 calibrations = std::make_shared<CalibrationMemo>();
+      double                     time         = 0;
       {
         Problem<dim> problem(parameters, context, communicator);
         problem.body.make_mesh(context.scene_directory, communicator);
@@ -168,7 +169,8 @@ namespace perideal
           {
             Problem<dim> problem(parameters, context, communicator);
             problem.run.go_on(earlier);
-            problem.body.mesh = std::move(mesh);
+            problem.body.mesh                   = std::move(mesh);
+            problem.discretisation.calibrations = calibrations;
             if (change.state && change.state->has_begun())
               time = change.state->time();
             table.add(problem.run, *problem.body.mesh, "t =", "time", time);

@@ -131,11 +131,13 @@ namespace perideal
   }
 
   template <int dim>
-  double Driver<dim>::largest_stable_step() const
+  double Driver<dim>::largest_stable_step(const std::vector<bool> &moves) const
   {
     return damped_time_step(
-      stable_time_step(*problem.system,
-                       [&](const dealii::types::material_id id) { return problem.body.density_of(id); }),
+      stable_time_step(
+        *problem.system,
+        [&](const dealii::types::material_id id) { return problem.body.density_of(id); },
+        moves),
       damping());
   }
 

@@ -54,29 +54,12 @@ namespace perideal
         problem.make_force();
         problem.make_failure();
         const Timings::Scope scope(problem.run.timings, "setup");
+        steps.make_local(problem);
         forces.make_contact(problem);
-        release_what_only_the_step_needed();
+        problem.keep_force();
         const Nodes<dim> &nodes = *problem.body.nodes;
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           mass.push_back(problem.body.density_of(nodes.material[i]) * nodes.volume[i]);
-      }
-
-      void release_what_only_the_step_needed()
-      {
-        DiscreteBody<dim> &discretisation = problem.discretisation;
-        problem.system.reset();
-        discretisation.bonds.reset();
-        if (!problem.parameters.model.recomputes())
-          {
-            discretisation.weights.reset();
-            discretisation.families->release_members();
-            return;
-          }
-        problem.force->reweigh_as_bonds_break(
-          discretisation.weights, [this](const auto &nodes, const auto &is_gone) {
-            problem.discretisation.weights->reweigh(
-              nodes, *problem.discretisation.model, solids_of_model(problem.body), is_gone);
-          });
       }
 
       void prepare_damping() override
@@ -97,8 +80,10 @@ namespace perideal
                      forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping");
         if (resumed)
           steps.resume(solver, resumed->template get<double>("time step"));
-        if (steps.size > steps.stable)
-          problem.run.warn("the time step " + short_number(steps.size) +
+        steps.choose_levels(problem,
+                            [&](const std::vector<bool> &moves) { return this->largest_stable_step(moves); });
+        if (steps.shortest() > steps.stable)
+          problem.run.warn("the time step " + short_number(steps.shortest()) +
                            " s is larger than the largest stable one, " + short_number(steps.stable) + " s");
       }
 
@@ -110,7 +95,9 @@ namespace perideal
                   short_number(problem.parameters.contact.distance) + " spacings\n";
         if (steps.size > 0)
           text += "time        " + short_number(solver.end_time) + " s in " + std::to_string(steps.number) +
-                  " steps of " + short_number(steps.size) + " s, " + integrator() + '\n';
+                  " steps of " + short_number(steps.size) + " s, " +
+                  (steps.local ? "of small cells down to " + short_number(steps.shortest()) + " s, " : "") +
+                  integrator() + '\n';
         return text;
       }
 
@@ -123,6 +110,8 @@ namespace perideal
           result["nodes left out of the search for contacts"] = forces.contact->n_left_out();
         if (problem.force)
           result["bonds at rest"] = 1. - problem.force->share_computed();
+        if (steps.local)
+          result["cell steps of larger cells (local steps)"] = 1. - steps.local->share_of_cell_steps();
         return result;
       }
 
@@ -154,6 +143,8 @@ namespace perideal
                                                                 Start::velocity_verlet :
                                                                 Start::symplectic_euler);
         forces.act_on(*dynamics);
+        if (steps.local)
+          dynamics->take_sub_steps(steps.local);
         initial.set(problem, *dynamics);
       }
 
@@ -168,6 +159,8 @@ namespace perideal
         recorders->summary()["solver"] = {{"name", "explicit dynamics, " + integrator()},
                                           {"time_step", steps.size},
                                           {"stable_time_step", steps.stable}};
+        if (steps.local)
+          recorders->summary()["solver"]["local_steps"] = steps.figures();
         make_dynamics();
         register_state();
         const bool is_restart = resumed && !this->mesh_has_changed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/drivers/motion_steps.h>
+#include <perideal/operators/system/stable_time_step.h>
 #include <perideal/output/summary.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ namespace perideal
   void
   MotionSteps::choose(const SolverParameters &solver, const double stable_step, const std::string &of_damping)
   {
-    stable = stable_step;
+    stable   = stable_step;
+    n_levels = 1 + static_cast<unsigned int>(std::lround(std::log2(solver.local_step_ratio)));
     if (!std::isfinite(stable))
       throw InputError("every node is held: nothing is left that could move")
         .parameter("Boundary conditions")
@@ -26,7 +28,9 @@ namespace perideal
       throw InputError("the damping leaves no time step that is stable")
         .parameter(of_damping)
         .hint("a motion of frequency f [1/s] is damped critically by 4 pi f");
-    const double wanted   = solver.time_step > 0 ? solver.time_step : solver.time_step_safety * stable;
+    const double wanted   = solver.time_step > 0 ?
+                              solver.time_step :
+                              LocalSteps::ratio(n_levels - 1) * solver.time_step_safety * stable;
     const double n_wanted = std::max(1., std::ceil(solver.end_time / wanted - 1e-9));
     if (!(n_wanted <= most_steps))
       throw InputError("the run would take " + short_number(n_wanted) + " steps of " + short_number(wanted) +
@@ -45,4 +49,50 @@ namespace perideal
     size   = earlier;
     number = std::ceil(solver.end_time / size - 1e-6);
   }
+
+  template <int dim>
+  void MotionSteps::choose_levels(const Problem<dim>                                     &problem,
+                                  const std::function<double(const std::vector<bool> &)> &stable_of)
+  {
+    if (n_levels > 1)
+      levels = local_step_levels<dim>(
+        *problem.system,
+        [&](const dealii::types::material_id id) { return problem.body.density_of(id); },
+        stable_of,
+        shortest(),
+        problem.parameters.solver.time_step_safety,
+        n_levels);
+  }
+
+  template <int dim>
+  void MotionSteps::make_local(Problem<dim> &problem)
+  {
+    if (n_levels == 1)
+      return;
+    local = std::make_shared<const LocalSteps>(
+      *problem.discretisation.families, problem.force->bond_list(), levels, n_levels);
+    levels.clear();
+    // A mesh that adapts will have smaller cells.
+    if (local->any_up_to(n_levels - 2) && local->n_families().back() == 0)
+      problem.run.warn("no cell takes steps as long as Solver/Local step ratio = " +
+                       std::to_string(problem.parameters.solver.local_step_ratio) +
+                       " allows: a smaller one takes as much time");
+  }
+
+  nlohmann::ordered_json MotionSteps::figures() const
+  {
+    auto families = nlohmann::ordered_json::array();
+    for (const GlobalIndex n : local->n_families())
+      families.push_back(n);
+    return {{"shortest_step", shortest()},
+            {"families_by_level", families},
+            {"share_of_cell_steps", local->share_of_cell_steps()}};
+  }
+
+  template void MotionSteps::choose_levels(const Problem<2> &,
+                                           const std::function<double(const std::vector<bool> &)> &);
+  template void MotionSteps::choose_levels(const Problem<3> &,
+                                           const std::function<double(const std::vector<bool> &)> &);
+  template void MotionSteps::make_local(Problem<2> &);
+  template void MotionSteps::make_local(Problem<3> &);
 } // namespace perideal

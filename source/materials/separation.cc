@@ -225,18 +225,30 @@ namespace perideal
     // In equal steps of log(w); W is the energy of what is left of the bonds, for planes at all distances.
     constexpr unsigned int n_steps = 100;
     find_across(normal);
-    double     lowest = std::numeric_limits<double>::infinity(), highest = 0;
-    const auto stretches_of = [&](const LocalIndex j) {
-      const double square = how.energy * squares[j];
-      return std::make_pair(how.first > 0 ? how.first : how.first_share * std::sqrt(square), square);
+    struct Bond
+    {
+      double first, square, of_opening, layer;
+      bool   softens;
+      /// Stretches where it begins to go, and where it has gone.
+      double begin, end;
     };
-    for (const LocalIndex j : across)
+    std::vector<Bond> bonds_across;
+    bonds_across.reserve(across.size());
+    double lowest = std::numeric_limits<double>::infinity(), highest = 0;
+    for (std::size_t n = 0; n < across.size(); ++n)
       {
-        const auto [first, square] = stretches_of(j);
-        const double of_stretch    = family.length_square[j] / reach[j];
-        const bool   softens       = how.law.is_stable(first, square);
-        lowest                     = std::min(lowest, of_stretch * (softens ? first : std::sqrt(square)));
-        highest = std::max(highest, of_stretch * (softens ? how.law.last(first, square) : std::sqrt(square)));
+        const LocalIndex j = across[n];
+        Bond             bond;
+        bond.square     = how.energy * squares[j];
+        bond.first      = how.first > 0 ? how.first : how.first_share * std::sqrt(bond.square);
+        bond.of_opening = reach[j] / family.length_square[j];
+        bond.layer      = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
+        bond.softens    = how.law.is_stable(bond.first, bond.square);
+        bond.begin      = bond.softens ? bond.first : std::sqrt(bond.square);
+        bond.end        = bond.softens ? how.law.last(bond.first, bond.square) : bond.begin;
+        lowest          = std::min(lowest, bond.begin / bond.of_opening);
+        highest         = std::max(highest, bond.end / bond.of_opening);
+        bonds_across.push_back(bond);
       }
     if (!(highest > 0) || !(lowest > 0))
       return 0;
@@ -250,11 +262,17 @@ namespace perideal
         left.clear();
         for (std::size_t n = 0; n < across.size(); ++n)
           {
-            const LocalIndex j         = across[n];
-            const auto [first, square] = stretches_of(j);
-            left.add(j, how.share(w * reach[j] / family.length_square[j], first, square), reach[j], normal);
-            const double layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
-            energy += layer * left.twice();
+            const LocalIndex j       = across[n];
+            const Bond      &bond    = bonds_across[n];
+            const double     stretch = w * bond.of_opening;
+            if (stretch < bond.end)
+              left.add(
+                j,
+                bond.softens && stretch > bond.begin ? how.law.carried(stretch, bond.first, bond.square) : 1.,
+                reach[j],
+                normal);
+            if (bond.layer > 0)
+              energy += bond.layer * left.twice();
           }
         work += (step == 0 ? 0.5 : width) * w * w * energy;
       }

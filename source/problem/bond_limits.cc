@@ -103,6 +103,7 @@ namespace perideal
     how.law         = SofteningLaw(body.parameters.material.softening);
     how.first_share = first_share;
     how.with_shares = with_shares;
+    how.memo        = discretisation.calibrations.get();
     calibrated = calibrate_stretches<dim>(families, bonds, *discretisation.model, solids_of_model(body), how);
   }
 

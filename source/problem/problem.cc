@@ -109,7 +109,26 @@ namespace perideal
   void Problem<dim>::make_failure()
   {
     const Timings::Scope scope(run.timings, "setup");
+    // A zone that grows calibrates its bonds anew.
+    if (has_fracture_zone(parameters) && !discretisation.calibrations)
+      discretisation.calibrations = std::make_shared<CalibrationMemo>();
     failure.apply(body, discretisation, *force);
+  }
+
+  template <int dim>
+  void Problem<dim>::keep_force()
+  {
+    system.reset();
+    discretisation.bonds.reset();
+    if (!parameters.model.recomputes())
+      {
+        discretisation.weights.reset();
+        discretisation.families->release_members();
+        return;
+      }
+    force->reweigh_as_bonds_break(discretisation.weights, [this](const auto &nodes, const auto &is_gone) {
+      discretisation.weights->reweigh(nodes, *discretisation.model, solids_of_model(body), is_gone);
+    });
   }
 
   template <int dim>

@@ -34,6 +34,35 @@ namespace perideal
   }
 
   template <int dim>
+  void ExplicitDynamics<dim>::take_sub_steps(const std::shared_ptr<const LocalSteps> &steps)
+  {
+    sub_steps =
+      std::make_unique<SubSteps<dim>>(bonds, steps, added.contact, mass, held.nodes.mask(), scheme.time_step);
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::start_half_step(const NodalVector &external)
+  {
+    if (n_steps == 0 && scheme.start == Start::velocity_verlet)
+      for (std::size_t k = 0; k < dim * mass.size(); ++k)
+        velocity.local_element(k) -=
+          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
+  }
+
+  template <int dim>
+  void ExplicitDynamics<dim>::take_steps_between(const NodalVector &external)
+  {
+    const auto of_others = [&](const std::size_t k) {
+      return external.local_element(k) - scheme.damping * mass[k / dim] * velocity.local_element(k);
+    };
+    for (std::size_t k = 0; k < dim * mass.size(); ++k)
+      work.force.local_element(k) += of_others(k);
+    own.between = sub_steps->take_steps(work.force, displacement);
+    for (std::size_t k = 0; k < dim * mass.size(); ++k)
+      work.force.local_element(k) -= of_others(k);
+  }
+
+  template <int dim>
   void ExplicitDynamics<dim>::move_faces(FaceValues<dim>                           &values,
                                          const std::vector<dealii::Tensor<1, dim>> &start)
   {
@@ -68,19 +97,26 @@ namespace perideal
   template <int dim>
   void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
   {
-    bonds.compute(work.force, displacement);
+    if (sub_steps)
+      sub_steps->compute(work.force, displacement);
+    else
+      {
+        bonds.compute(work.force, displacement);
+        if (added.contact)
+          added.contact->add(work.force, bonds);
+        start_half_step(external);
+      }
     breaks.now = bonds.n_broken_now();
     breaks.total += breaks.now;
-    if (added.contact)
-      added.contact->add(work.force, bonds);
-    if (n_steps == 0 && scheme.start == Start::velocity_verlet)
-      for (std::size_t k = 0; k < dim * mass.size(); ++k)
-        velocity.local_element(k) -=
-          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
     breaks.switched += bonds.switched_energy(velocity, scheme.time_step);
     const SofteningBonds &softening = bonds.softening_bonds();
     if (softening.softens() ? softening.any_now(displacement.get_mpi_communicator()) : breaks.now > 0)
       breaks.energy += bonds.released_energy(velocity, scheme.time_step);
+    if (sub_steps)
+      {
+        take_steps_between(external);
+        start_half_step(external);
+      }
 
     work.earlier_velocity.swap(velocity);
     if (added.damping)
@@ -107,12 +143,16 @@ namespace perideal
           damped_before += drag * before[k];
           damped_after += drag * after[k];
         }
-    own.kinetic = 0.5 * kinetic_sum;
+    own.kinetic = 0.5 * kinetic_sum + own.between;
     // At the beginning the initial motion and strain are there: what they hold counts as put in.
     own.external_work +=
       n_steps == 0 ? own.kinetic : own.next_external_work + 0.5 * scheme.time_step * work_before;
     if (n_steps == 0)
-      add_work(bonds.strain_energy() + breaks.energy);
+      {
+        if (sub_steps)
+          sub_steps->settle(displacement);
+        add_work(bonds.strain_energy() + breaks.energy);
+      }
     own.damped += n_steps == 0 ? 0. : own.next_damped + 0.5 * scheme.time_step * damped_before;
     own.next_external_work = 0.5 * scheme.time_step * work_after;
     own.next_damped        = 0.5 * scheme.time_step * damped_after;
@@ -156,6 +196,8 @@ namespace perideal
   {
     const MPI_Comm communicator = displacement.get_mpi_communicator();
     using dealii::Utilities::MPI::sum;
+    if (sub_steps)
+      sub_steps->settle(displacement);
     EnergyBudget result;
     result.kinetic    = sum(own.kinetic, communicator);
     result.strain     = bonds.strain_energy();

@@ -106,6 +106,13 @@ namespace perideal
                       "Part of the largest stable step that is taken, 0 < safety <= 1 [-]",
                       Double());
     prm.add_parameter(
+      "Local step ratio",
+      local_step_ratio,
+      "How many times longer than the shortest step the longest is, that of larger cells: a "
+      "power of two, 1 to 64 [-]; loads and bonds are looked at after the longest; 1: all take "
+      "the same",
+      Integer(1, 64));
+    prm.add_parameter(
       "Integrator",
       integrator,
       "velocity verlet: initial velocities are those at t = 0; symplectic euler: those half a "
@@ -132,6 +139,8 @@ namespace perideal
       !is_dynamic() || (end_time > 0 && std::isfinite(end_time)), "End time", "a time > 0 in dynamics");
     check_range(time_step >= 0 && std::isfinite(time_step), "Time step", "a time > 0, or 0: chosen");
     check_range(time_step_safety > 0 && time_step_safety <= 1, "Time step safety", "0 < safety <= 1");
+    check_range(
+      (local_step_ratio & (local_step_ratio - 1)) == 0, "Local step ratio", "1, 2, 4, 8, 16, 32 or 64");
     check_range(damping >= 0 && std::isfinite(damping), "Damping", "a number >= 0");
     check_range(
       relative_damping >= 0 && std::isfinite(relative_damping), "Relative damping", "a number >= 0");

@@ -94,7 +94,7 @@ namespace perideal
     virtual double damping() const { return problem.parameters.solver.damping; }
 
     /// Returns the largest stable step of explicit dynamics [s]. Collective.
-    double largest_stable_step() const;
+    double largest_stable_step(const std::vector<bool> &moves = {}) const;
 
     /// Writes a checkpoint of all that lasts. Collective.
     void save_checkpoint(const std::uint64_t step, const double time) const;

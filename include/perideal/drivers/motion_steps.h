@@ -2,10 +2,17 @@
 #ifndef perideal_drivers_motion_steps_h
 #define perideal_drivers_motion_steps_h
 
+#include <perideal/operators/force/local_steps.h>
+#include <perideal/problem/problem.h>
 #include <perideal/solvers/solver_parameters.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace perideal
 {
@@ -22,9 +29,32 @@ namespace perideal
     /// Goes on with the steps of an earlier run [s].
     void resume(const SolverParameters &solver, const double earlier);
 
-    /// The step and the largest stable one [s]; the number of steps.
+    /// Chooses the nodes with longer steps than the shortest, where the scene wants that. Collective.
+    /// @param stable_of the largest stable step of some nodes, all others held [s]
+    template <int dim>
+    void choose_levels(const Problem<dim>                                     &problem,
+                       const std::function<double(const std::vector<bool> &)> &stable_of);
+
+    /// Makes the local steps of these levels; needs the force. Collective.
+    template <int dim>
+    void make_local(Problem<dim> &problem);
+
+    /// The shortest step [s].
+    double shortest() const { return size / LocalSteps::ratio(n_levels - 1); }
+
+    /// What summary.json tells of local steps.
+    nlohmann::ordered_json figures() const;
+
+    /// The step and the largest stable one of all nodes [s]; the number of steps.
     double        size = 0, stable = 0;
     std::uint64_t number = 0;
+    /// Null where all nodes take the same step.
+    std::shared_ptr<const LocalSteps> local;
+
+  private:
+    unsigned int n_levels = 1;
+    /// By owned node.
+    std::vector<unsigned int> levels;
   };
 } // namespace perideal
 

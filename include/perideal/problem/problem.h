@@ -81,6 +81,10 @@ namespace perideal
     /// Cuts precracks and sets the limits of the force's bonds. Collective.
     void make_failure();
 
+    /// Frees what explicit steps do not need once there is a force: the system, the linear operator and,
+    /// unless families are weighed anew as bonds break, their weights and members.
+    void keep_force();
+
     /// Makes the vectors of the state and looks at all loads once, at t = 1. Collective.
     /// @throws InputError on loads that are not finite, or push along a motion that nothing holds.
     void check_loads();

@@ -7,10 +7,12 @@
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/force/contact_force.h>
 #include <perideal/operators/force/relative_damping.h>
+#include <perideal/solvers/sub_steps.h>
 
 #include <deal.II/base/tensor.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace perideal
@@ -68,6 +70,9 @@ namespace perideal
     void set_contact(ContactForce<dim> *force) { added.contact = force; }
     void set_relative_damping(RelativeDamping<dim> *relative);
 
+    /// Lets small cells take shorter steps between two of these; to be called after set_contact().
+    void take_sub_steps(const std::shared_ptr<const LocalSteps> &steps);
+
     /// Moves prescribed values at faces, which the force reads, besides the held nodes: to where they are at
     /// the present time. They must outlive this object.
     /// @param start where they are at t = 0 [m], by entry
@@ -100,7 +105,8 @@ namespace perideal
     double        time() const { return n_steps * scheme.time_step; }
     std::uint64_t step() const { return n_steps; }
 
-    /// Energies at the present time, after evaluate(). Collective.
+    /// Energies at the present time, after evaluate(), to which it brings back the force where there are
+    /// sub-steps. Collective.
     EnergyBudget energy() const;
     /// Momentum of the body half a step later, after evaluate() [kg m/s]. Collective.
     dealii::Tensor<1, dim> momentum() const;
@@ -119,6 +125,12 @@ namespace perideal
     NodalVector displacement, velocity;
 
   private:
+    /// Half a step back from the initial velocity.
+    void start_half_step(const NodalVector &external);
+
+    /// Puts the effective force of sub-steps in the place of that of bonds and contact.
+    void take_steps_between(const NodalVector &external);
+
     /// Adds the work of supports at faces in the halves of a step before and after the present time, and
     /// finds how far they go next.
     void work_of_faces();
@@ -160,6 +172,8 @@ namespace perideal
     };
     Work          work;
     std::uint64_t n_steps = 0;
+    /// Null where all nodes take the same step.
+    std::unique_ptr<SubSteps<dim>> sub_steps;
 
     /// Of all ranks: bonds broken, now and so far, the energy that they set free, and that switched.
     struct Breaks
@@ -174,6 +188,8 @@ namespace perideal
     struct Shares
     {
       double kinetic = 0, damped = 0, external_work = 0;
+      /// What sub-steps take from the kinetic energy.
+      double between     = 0;
       double next_damped = 0, next_external_work = 0;
     };
     Shares own;

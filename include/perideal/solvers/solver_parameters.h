@@ -123,8 +123,10 @@ namespace perideal
     /// Of dynamics [s]; step 0: chosen.
     double end_time = 0, time_step = 0;
     /// Part of the largest stable step [-].
-    double     time_step_safety = 0.8;
-    Integrator integrator       = Integrator::velocity_verlet;
+    double time_step_safety = 0.8;
+    /// Of the longest local step to the shortest.
+    unsigned int local_step_ratio = 1;
+    Integrator   integrator       = Integrator::velocity_verlet;
     /// Viscous force over mass and velocity [1/s].
     double damping = 0;
     /// Rate at which motion against the family dies out [1/s].

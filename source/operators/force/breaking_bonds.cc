@@ -43,6 +43,18 @@ namespace perideal
   }
 
   template <int dim>
+  void BondForce<dim>::take_local_steps(const std::shared_ptr<const LocalSteps> &)
+  {
+    AssertThrow(false, dealii::ExcNotImplemented());
+  }
+
+  template <int dim>
+  void BondForce<dim>::compute_parts(std::vector<NodalVector> &, const NodalVector &, const unsigned int)
+  {
+    AssertThrow(false, dealii::ExcNotImplemented());
+  }
+
+  template <int dim>
   BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
                                     const BondList                             &bonds,
                                     const bool                                  has_sums)

@@ -10,7 +10,7 @@ namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights>
   template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
-  void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families()
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families(const Levels levels)
   {
     for (unsigned int a = 0; a < n_sums; ++a)
       std::fill(sums[a].begin(), sums[a].end(), 0.);
@@ -20,7 +20,7 @@ namespace perideal
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
-        if (i % RestRegions::block_size == 0 && !regions.sums_awake(i / RestRegions::block_size))
+        if (skips(i, levels, [&](const LocalIndex block) { return regions.sums_awake(block); }))
           {
             i += RestRegions::block_size - 1;
             continue;
@@ -66,7 +66,7 @@ namespace perideal
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
   template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
-  void FamilyForce<dim, n_sums, own_force_weights>::sum_forces()
+  void FamilyForce<dim, n_sums, own_force_weights>::sum_forces(const Levels levels)
   {
     const LocalIndex *neighbour    = bonds.neighbour.data();
     const NodeRecord *y            = position.data();
@@ -78,7 +78,7 @@ namespace perideal
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
-        if (i % RestRegions::block_size == 0 && !regions.forces_awake(i / RestRegions::block_size))
+        if (skips(i, levels, [&](const LocalIndex block) { return regions.forces_awake(block); }))
           {
             i += RestRegions::block_size - 1;
             continue;
@@ -143,14 +143,46 @@ namespace perideal
   {
     broken_now.clear();
     this->move_nodes(displacement);
-    if (!this->can_break())
-      compute_forces<Failing::not_at_all>(force);
-    else if (reweigh)
+    if (this->can_break() && reweigh)
       compute_and_reweigh(force);
-    else if (softening.softens())
-      compute_forces<Failing::gradually>(force);
     else
-      compute_forces<Failing::at_once>(force);
+      with_failing([&](const auto failing) { compute_forces<failing.value>(force); });
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <typename Compute>
+  void FamilyForce<dim, n_sums, own_force_weights>::with_failing(const Compute &compute) const
+  {
+    if (!this->can_break())
+      compute(std::integral_constant<Failing, Failing::not_at_all>());
+    else if (softening.softens())
+      compute(std::integral_constant<Failing, Failing::gradually>());
+    else
+      compute(std::integral_constant<Failing, Failing::at_once>());
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::compute_parts(std::vector<NodalVector> &parts,
+                                                                  const NodalVector        &displacement,
+                                                                  const unsigned int        highest)
+  {
+    broken_now.clear();
+    this->move_nodes(displacement);
+    with_failing([&](const auto failing) {
+      // Families of higher levels miss bonds in their sums; their members have not moved.
+      if constexpr (n_sums > 0)
+        {
+          sum_over_families<failing.value>({0, highest});
+          turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const LocalIndex i) {
+            return local_steps->level_of_family(i) <= highest;
+          });
+        }
+      for (unsigned int level = 0; level <= highest; ++level)
+        {
+          sum_forces<failing_of_forces<failing.value>>({level, level});
+          copy_forces(parts[level]);
+        }
+    });
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -159,12 +191,16 @@ namespace perideal
   {
     if constexpr (n_sums > 0)
       {
-        sum_over_families<failing>();
+        sum_over_families<failing>({});
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
       }
-    // The first pass has looked at the lengths.
-    constexpr bool has_failed = n_sums > 0 && failing == Failing::at_once;
-    sum_forces<has_failed ? Failing::not_at_all : failing>();
+    sum_forces<failing_of_forces<failing>>({});
+    copy_forces(force);
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  void FamilyForce<dim, n_sums, own_force_weights>::copy_forces(NodalVector &force) const
+  {
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = forces[i].value[d];
@@ -172,6 +208,8 @@ namespace perideal
 
 #define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
+  template void FamilyForce<dim, n_sums, own_force_weights>::compute_parts(                                  \
+    std::vector<NodalVector> &, const NodalVector &, const unsigned int);                                    \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \
     FamilyForce<dim, n_sums, own_force_weights>::Failing::at_once>(NodalVector &);                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \

@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/materials/bulk_strength.h>
 #include <perideal/operators/weights/calibrated_stretches.h>
+#include <perideal/operators/weights/calibration_memo.h>
 #include <perideal/operators/weights/equal_families.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,20 +23,12 @@ namespace perideal
     /// Share of the strain of the tensile strength below which no family begins to soften: .75 to .84 do.
     constexpr double least_first = 0.6;
 
-    /// What a family makes of its bonds.
-    struct Calibrated
-    {
-      std::vector<double> squares;
-      double              first = 0;
-      EnergyByDirection   shares;
-    };
-
     template <int dim>
-    Calibrated calibrate(const FamilyView<dim>           &family,
-                         LinearModel<dim>                &model,
-                         const Calibration<dim>          &how,
-                         const dealii::types::material_id material,
-                         const bool                       is_one_of_many)
+    CalibratedFamily calibrate(const FamilyView<dim>           &family,
+                               LinearModel<dim>                &model,
+                               const Calibration<dim>          &how,
+                               const dealii::types::material_id material,
+                               const bool                       is_one_of_many)
     {
       const BondFracture<dim> fracture = how.fracture_of(material);
       FamilyCoefficients      coefficients;
@@ -43,7 +36,7 @@ namespace perideal
       coefficients.resize(family.size, shape);
       model.compute(family, coefficients);
       Separation<dim>    separation(family, coefficients, shape, fracture.by_normal);
-      Calibrated         result;
+      CalibratedFamily   result;
       const bool         only_scale = is_one_of_many && family.size > large_family;
       BondFailing        failing{how.law, fracture.energy, fracture.of_strength, how.first_share};
       const auto         normals = directions_of_bonds(family, only_scale ? few_normals : most_normals);
@@ -67,6 +60,24 @@ namespace perideal
         result.shares = separation.by_direction(result.squares, failing);
       return result;
     }
+
+    /// As calibrate(), or what the memo knows of it.
+    template <int dim>
+    CalibratedFamily recall(const FamilyView<dim>           &family,
+                            LinearModel<dim>                &model,
+                            const Calibration<dim>          &how,
+                            const dealii::types::material_id material,
+                            const bool                       is_one_of_many)
+    {
+      if (how.memo == nullptr || model.depends_on_node())
+        return calibrate(family, model, how, material, is_one_of_many);
+      const auto key = CalibrationMemo::key_of(family, material, 2u * is_one_of_many + how.with_shares);
+      if (const CalibratedFamily *known = how.memo->find(key))
+        return *known;
+      const CalibratedFamily result = calibrate(family, model, how, material, is_one_of_many);
+      how.memo->insert(key, result);
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -87,8 +98,8 @@ namespace perideal
     std::vector<BondCursor::End> ends;
     FamilyView<dim>              family;
     // Of the different families, in the order of their numbers; of the last one where all may differ.
-    std::vector<Calibrated> known;
-    std::vector<LocalIndex> codes, first_code;
+    std::vector<CalibratedFamily> known;
+    std::vector<LocalIndex>       codes, first_code;
     // Number of families, and sums of their shares.
     std::array<double, 4>      sums     = {};
     dealii::types::material_id material = dealii::numbers::invalid_material_id;
@@ -111,10 +122,10 @@ namespace perideal
           known.clear();
         if (match.is_new)
           {
-            known.push_back(calibrate(family, model, how, material, !many_equal));
+            known.push_back(recall(family, model, how, material, !many_equal));
             first_code.push_back(many_equal && family.size > 0 ? codes.front() : 0);
           }
-        const Calibrated &own = known[match.number];
+        const CalibratedFamily &own = known[match.number];
         for (LocalIndex k = 0; k < family.size; ++k)
           {
             const BondCursor::End &end = ends[family.member[k]];
@@ -127,6 +138,8 @@ namespace perideal
         for (unsigned int m = 0; m < more.size(); ++m)
           sums[m] += more[m];
       }
+    if (how.memo != nullptr)
+      how.memo->forget_unused();
     exchange_cut_bonds(families, bonds, {result.near.data()}, {result.far.data()});
     if (how.law.softens())
       exchange_cut_bonds(families, bonds, {result.first_near.data()}, {result.first_far.data()});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/spread_bits.h>
 #include <perideal/operators/weights/equal_families.h>
 
 #include <algorithm>
@@ -15,14 +16,6 @@ namespace perideal
     /// Bits of one direction of a lattice point, and the middle of its range.
     constexpr int    bits   = 21;
     constexpr double middle = 1 << (bits - 1);
-
-    /// Spreads the bits of a number (Steele, Lea, Flood 2014: the finaliser of SplitMix).
-    std::uint64_t spread(std::uint64_t x)
-    {
-      x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-      x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-      return x ^ (x >> 31);
-    }
   } // namespace
 
   template <int dim>
@@ -54,10 +47,10 @@ namespace perideal
           }
       }
     places.resize(family.size);
-    Key result = spread(family.size);
+    Key result = spread_bits(family.size);
     for (LocalIndex m = 0; m < family.size; ++m)
       {
-        places[m] = spread(keys[m]);
+        places[m] = spread_bits(keys[m]);
         result += places[m];
       }
     return result;

@@ -4,8 +4,10 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/force/breaking_bonds.h>
+#include <perideal/operators/force/local_steps.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -40,6 +42,10 @@ namespace perideal
                                   const typename BondForce<dim>::Reweigh        &reweigh) override;
     void   take_weights(const BondWeights<dim> &scaled, const std::vector<double> &share) override;
     void   compute(NodalVector &force, const NodalVector &displacement) override;
+    void   take_local_steps(const std::shared_ptr<const LocalSteps> &steps) override { local_steps = steps; }
+    void   compute_parts(std::vector<NodalVector> &parts,
+                         const NodalVector        &displacement,
+                         const unsigned int        highest) override;
     void   visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
     void   restore_broken(const std::vector<BondEnds> &broken) override;
     double strain_energy() const override;
@@ -88,6 +94,7 @@ namespace perideal
     using BreakingBonds<dim>::position;
     using BreakingBonds<dim>::forces;
     using BreakingBonds<dim>::softening;
+    using BreakingBonds<dim>::local_steps;
 
     bool carries_force(const BondIndex slot) const override;
     void clear_weights(const BondIndex slot) override;
@@ -110,6 +117,10 @@ namespace perideal
       at_once,
       gradually
     };
+    /// Of the pass over forces: where there are sums, the first pass has looked at the lengths.
+    template <Failing failing>
+    static constexpr Failing failing_of_forces =
+      n_sums > 0 && failing == Failing::at_once ? Failing::not_at_all : failing;
     /// Sums and forces of the bonds there are, after those too long have failed.
     template <Failing failing>
     void compute_forces(NodalVector &force);
@@ -120,11 +131,34 @@ namespace perideal
     /// @param first of the lost bonds
     void reweigh_ends(const std::size_t first);
 
-    /// The passes over all bonds; lengths are checked in the first.
+    /// Of local steps, those whose blocks a pass goes over; without them, all.
+    struct Levels
+    {
+      unsigned int first = 0, last = std::numeric_limits<unsigned int>::max();
+    };
+    /// The passes over the bonds; lengths are checked in the first.
     template <Failing failing>
-    void sum_over_families();
+    void sum_over_families(const Levels levels);
     template <Failing failing>
-    void sum_forces();
+    void sum_forces(const Levels levels);
+    /// Whether a row is the first of a block that a pass has nothing to do in.
+    template <typename IsAwake>
+    bool skips(const LocalIndex i, const Levels levels, const IsAwake &is_awake) const
+    {
+      if (i % RestRegions::block_size != 0)
+        return false;
+      const LocalIndex block = i / RestRegions::block_size;
+      if (!is_awake(block))
+        return true;
+      if (!local_steps)
+        return false;
+      const unsigned int level = local_steps->level_of_block(block);
+      return level < levels.first || level > levels.last;
+    }
+    /// Calls compute(failing) with what happens to bonds that are too long, as a constant.
+    template <typename Compute>
+    void with_failing(const Compute &compute) const;
+    void copy_forces(NodalVector &force) const;
 
     /// Breaks or softens those of a group of bonds that are too long.
     /// @param excess of their lengths over the largest ones [m]

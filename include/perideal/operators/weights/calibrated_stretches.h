@@ -11,6 +11,8 @@
 
 namespace perideal
 {
+  class CalibrationMemo;
+
   /// What of a material decides at which stretches its bonds fail.
   template <int dim>
   struct BondFracture
@@ -39,6 +41,8 @@ namespace perideal
     std::function<double(const dealii::types::material_id, const double)> of_continuum;
     /// Whether the energies by direction are looked at, too.
     bool with_shares = false;
+    /// Where families are looked up first, and kept; null: nowhere. All else here must be as it was.
+    CalibrationMemo *memo = nullptr;
   };
 
   /// Critical stretches by which cracks take the fracture energy, as the bonds of whole families stand

@@ -11,11 +11,13 @@ namespace perideal
 {
   /// Turns the sums of owned nodes into states, and fetches those of ghosts from their owners. Collective.
   /// @param sums, state by local node @param ghosted work space, n_sums values a node with ghosts
-  template <unsigned int n_sums>
+  /// @param is_due of an owned node: the others keep their state
+  template <unsigned int n_sums, typename IsDue>
   void turn_sums_into_states(const FamilyMaps<n_sums>                      &map,
                              const std::array<std::vector<double>, n_sums> &sums,
                              std::array<std::vector<double>, n_sums>       &state,
-                             NodalVector                                   &ghosted)
+                             NodalVector                                   &ghosted,
+                             const IsDue                                   &is_due)
   {
     const LocalIndex n_local = map.entries.size(), n_owned = ghosted.locally_owned_size() / n_sums;
     const bool       has_ghosts = n_local > n_owned;
@@ -25,6 +27,9 @@ namespace perideal
         for (unsigned int a = 0; a < n_sums; ++a)
           s[a] = sums[a][i];
         s = map.states(i, s);
+        if (!is_due(i))
+          for (unsigned int a = 0; a < n_sums; ++a)
+            s[a] = state[a][i];
         for (unsigned int a = 0; a < n_sums; ++a)
           {
             state[a][i] = s[a];
@@ -39,6 +44,15 @@ namespace perideal
       for (unsigned int a = 0; a < n_sums; ++a)
         state[a][i] = ghosted.local_element(n_sums * i + a);
     ghosted.zero_out_ghost_values();
+  }
+
+  template <unsigned int n_sums>
+  void turn_sums_into_states(const FamilyMaps<n_sums>                      &map,
+                             const std::array<std::vector<double>, n_sums> &sums,
+                             std::array<std::vector<double>, n_sums>       &state,
+                             NodalVector                                   &ghosted)
+  {
+    turn_sums_into_states<n_sums>(map, sums, state, ghosted, [](const LocalIndex) { return true; });
   }
 } // namespace perideal
 

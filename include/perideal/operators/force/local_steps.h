@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_operators_force_local_steps_h
+#define perideal_operators_force_local_steps_h
+
+#include <perideal/neighbourhood/bond_list.h>
+#include <perideal/neighbourhood/families.h>
+
+#include <cmath>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Knows which nodes move in shorter steps than the longest, in levels: those of level k in steps of about
+   * 2^k times the shortest. A node is of the lowest level that its family asks for, so that those at a change
+   * of cell size, whose families are stiffer than those of equal cells, move with the smaller ones.
+   *
+   * A family is of the lowest level of its members. Forces are split by blocks of rows of the bond list
+   * (RestRegions::block_size), each of the lowest level of the families that its bonds belong to. What nodes
+   * of level k do changes no family and no force of a higher level.
+   */
+  class LocalSteps
+  {
+  public:
+    /// Collective.
+    /// @param own level of each owned node by itself @param n_levels beyond the highest that there may be
+    template <int dim>
+    LocalSteps(const Families<dim>             &families,
+               const BondList                  &bonds,
+               const std::vector<unsigned int> &own,
+               const unsigned int               n_levels);
+
+    /// Of two levels (SubSteps): nu is chosen, 1 without damping; with it fast motions of the lower level
+    /// stay .15 of the 4 that leapfrog bears away from both of its bounds. omega takes them to the bounds,
+    /// and the square of the longer step over the shorter one follows.
+    static constexpr double nu            = 1.02;
+    static constexpr double t_2           = 2. * nu * nu - 1.;
+    static constexpr double omega         = 0.5 * (nu + 1.) / (1. + 1. / t_2);
+    static constexpr double growth_square = 8. * nu * omega / t_2;
+    /// How many times longer steps are than those of so many levels below.
+    static double ratio(const unsigned int n_levels) { return std::pow(growth_square, 0.5 * n_levels); }
+
+    unsigned int n_levels() const { return static_cast<unsigned int>(counts.size()); }
+
+    unsigned int level_of(const LocalIndex node) const { return nodes[node]; }
+    unsigned int level_of_family(const LocalIndex node) const { return families[node]; }
+    unsigned int level_of_block(const LocalIndex block) const { return blocks[block]; }
+
+    /// Whether any node of any rank is of this level or a lower one.
+    bool any_up_to(const unsigned int level) const;
+
+    /// Number of nodes of all ranks whose families have to be evaluated with this level, and with none below.
+    const std::vector<GlobalIndex> &n_families() const { return counts; }
+
+    /// Share of the families that steps evaluate, of all families in all of the shortest steps.
+    double share_of_cell_steps() const;
+
+    std::size_t memory_consumption() const;
+
+  private:
+    /// By owned node, and by block of its rows.
+    std::vector<unsigned int> nodes, families, blocks;
+    std::vector<GlobalIndex>  counts;
+    unsigned int              lowest;
+  };
+} // namespace perideal
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef perideal_solvers_sub_steps_h
+#define perideal_solvers_sub_steps_h
+
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/contact_force.h>
+#include <perideal/operators/force/local_steps.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace perideal
+{
+  /**
+   * Lets small cells take shorter steps between two of the longest, Dt (leapfrog with local steps: Diaz,
+   * Grote, SIAM Journal on Scientific Computing 31, 1985-2014, 2009; with many levels: Computer Methods in
+   * Applied Mechanics and Engineering 291, 240-265, 2015). Leapfrog takes u(t + Dt) + u(t - Dt) - 2 u(t) from
+   * the force; that is twice the way z(Dt) - u(t) of a body that starts from rest at t. On this way forces of
+   * small cells are evaluated after every step of theirs, with the larger cells where they were at t; so what
+   * leapfrog sees is an effective force,
+   *
+   *     F_eff = 2 m (z(Dt) - u)/Dt^2.
+   *
+   * Of two steps of dt = Dt/2, with f all forces at u and P the nodes that move,
+   *
+   *     w = dt^2 f/(2 m),  f_1 = f + F(u + P w) - F(u),  w_1 = dt^2 f_1/(2 m),  z(Dt) - u = 2 (w + w_1),
+   *
+   * and where cells are smaller still, w and w_1 come of two steps of dt/2 in the same way. Fast motions of
+   * small cells are then at the bounds of what leapfrog bears for a long step, and what couples them to
+   * larger cells may push them over. So the polynomial 2 (1 - T_2(1 - x/2)) of x = dt^2 k/m is damped as
+   * those of Chebyshev methods are (Carle, Hochbruck, Sturm, SIAM Journal on Numerical Analysis 58,
+   * 2404-2433, 2020; Grote, Michel, Sauter, Mathematics of Computation 90, 2603-2643, 2021):
+   *
+   *     2 (1 - T_2(nu - omega x)/T_2(nu)):  z(Dt) - u = (Dt/dt)^2 ((1 - 2 c) w + 2 c w_1),  c = omega/(2 nu),
+   *
+   * with Dt just below 2 dt (LocalSteps::growth_square).
+   *
+   * F_eff is zero where f is, sums up to zero as f does, and in linear elasticity has a potential:
+   *
+   *     m v(-).v(+)/2 + U - sum over the levels of sum_P 2 c m |w|^2/dt^2,  with w of the first step,
+   *
+   * is conserved as leapfrog conserves m v(-).v(+)/2 + U. Loads are constant over Dt, contact is not; bonds
+   * are judged at the longest steps.
+   */
+  template <int dim>
+  class SubSteps
+  {
+  public:
+    /// @param mass of owned nodes [kg] @param is_held by component of the owned nodes
+    /// @param longest step [s]
+    /// The arguments must outlive this object.
+    SubSteps(BondForce<dim>                          &bonds,
+             const std::shared_ptr<const LocalSteps> &steps,
+             ContactForce<dim>                       *contact,
+             const std::vector<double>               &mass,
+             const std::vector<std::uint8_t>         &is_held,
+             const double                             longest);
+
+    /// Computes the force of bonds and contact on the owned nodes, and judges bonds. Collective.
+    void compute(NodalVector &force, const NodalVector &displacement);
+
+    /// Turns all that acts on the nodes after compute() into the effective force. Collective.
+    /// @return what the motion between takes from the energy, of this rank [J]
+    double take_steps(NodalVector &force, const NodalVector &displacement);
+
+    /// Brings bonds and contact back to the state of compute(), for who asks for their energies. Collective.
+    void settle(const NodalVector &displacement);
+
+  private:
+    /// Finds the way from rest at @p from during a step of a level.
+    /// @param at_present whether bonds have been judged there: the energy of the way counts
+    void move(const unsigned int level,
+              const NodalVector &from,
+              const NodalVector &force,
+              const bool         at_present,
+              NodalVector       &way);
+
+    /// Bonds and contact with the parts of the levels up to one.
+    void compute_parts(const NodalVector &displacement, const unsigned int highest);
+    void sum_parts(const unsigned int highest, NodalVector &sum) const;
+
+    /// Calls visit(k) with the components that move in steps of a level or shorter ones.
+    template <typename Visit>
+    void visit_moving(const unsigned int level, const Visit &visit) const;
+
+    double step_of(const unsigned int level) const;
+
+    BondForce<dim>                   &bonds;
+    std::shared_ptr<const LocalSteps> steps;
+    ContactForce<dim>                *contact;
+    const std::vector<double>        &mass;
+    const std::vector<std::uint8_t>  &is_held;
+    const double                      longest;
+
+    /// Of the bonds, by level; contact is in the lowest.
+    std::vector<NodalVector> parts;
+
+    /// Work space of a level: the way of its first shorter step, where that leads, the force there, and the
+    /// parts of the force before.
+    struct Level
+    {
+      NodalVector way, place, force, before;
+    };
+    std::vector<Level> levels;
+    NodalVector        whole_way;
+    double             energy = 0;
+  };
+} // namespace perideal
+
+#endif

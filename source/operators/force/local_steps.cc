@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/operators/force/local_steps.h>
+#include <perideal/operators/force/rest_regions.h>
+
+#include <deal.II/base/memory_consumption.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace perideal
+{
+  namespace
+  {
+    /// Calls visit(i, j) with the ends of all bonds of this rank.
+    template <typename Visit>
+    void visit_ends(const BondList &bonds, const Visit &visit)
+    {
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          visit(i, bonds.neighbour[slot]);
+    }
+
+    /// Returns the lowest level of each local node and its neighbours. Collective.
+    /// @param levels of the owned nodes
+    template <int dim>
+    std::vector<unsigned int> lowest_of_neighbours(const Families<dim>             &families,
+                                                   const BondList                  &bonds,
+                                                   const std::vector<unsigned int> &levels)
+    {
+      NodalVector of_nodes(families.make_partitioner(1)), result(of_nodes);
+      std::copy_n(levels.begin(), families.n_owned(), of_nodes.begin());
+      of_nodes.update_ghost_values();
+      std::copy_n(levels.begin(), families.n_owned(), result.begin());
+      visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
+        result.local_element(i) = std::min(result.local_element(i), of_nodes.local_element(j));
+        // A bond that the partition cuts stands on both ranks.
+        if (j < families.n_owned())
+          result.local_element(j) = std::min(result.local_element(j), of_nodes.local_element(i));
+      });
+      result.update_ghost_values();
+      std::vector<unsigned int> lowest(families.n_local());
+      for (LocalIndex i = 0; i < lowest.size(); ++i)
+        lowest[i] = static_cast<unsigned int>(result.local_element(i));
+      return lowest;
+    }
+  } // namespace
+
+  template <int dim>
+  LocalSteps::LocalSteps(const Families<dim>             &families,
+                         const BondList                  &bonds,
+                         const std::vector<unsigned int> &own,
+                         const unsigned int               n_levels)
+    : nodes(lowest_of_neighbours(families, bonds, own))
+    , blocks((families.n_owned() + RestRegions::block_size - 1) / RestRegions::block_size, n_levels - 1)
+    , counts(n_levels, 0)
+  {
+    const std::vector<unsigned int> of_families = lowest_of_neighbours(families, bonds, nodes);
+    nodes.resize(families.n_owned());
+    this->families.assign(of_families.begin(), of_families.begin() + families.n_owned());
+    const auto add = [&](const LocalIndex row, const LocalIndex family) {
+      unsigned int &level = blocks[row / RestRegions::block_size];
+      level               = std::min(level, of_families[family]);
+    };
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      {
+        add(i, i);
+        ++counts[of_families[i]];
+      }
+    visit_ends(bonds, add);
+    dealii::Utilities::MPI::sum(counts, families.communicator, counts);
+    lowest =
+      std::find_if(counts.begin(), counts.end(), [](const GlobalIndex n) { return n > 0; }) - counts.begin();
+  }
+
+  bool LocalSteps::any_up_to(const unsigned int level) const
+  {
+    return lowest <= level;
+  }
+
+  double LocalSteps::share_of_cell_steps() const
+  {
+    double evaluated = 0, all = 0;
+    for (unsigned int level = 0; level < n_levels(); ++level)
+      {
+        evaluated += static_cast<double>(counts[level]) / (1u << level);
+        all += counts[level];
+      }
+    return evaluated / all;
+  }
+
+  std::size_t LocalSteps::memory_consumption() const
+  {
+    using dealii::MemoryConsumption::memory_consumption;
+    return memory_consumption(nodes) + memory_consumption(families) + memory_consumption(blocks);
+  }
+
+  template LocalSteps::LocalSteps(const Families<2> &,
+                                  const BondList &,
+                                  const std::vector<unsigned int> &,
+                                  const unsigned int);
+  template LocalSteps::LocalSteps(const Families<3> &,
+                                  const BondList &,
+                                  const std::vector<unsigned int> &,
+                                  const unsigned int);
+} // namespace perideal

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+perideal_room(parameters
+  SOURCES
+    areal_force_parameters.cc
+    declarations.cc
+    elastic_constants.cc
+    elastic_solid.cc
+    elastic_symmetry.cc
+    engineering_constants.cc
+    expanded_law.cc
+    face_rotation.cc
+    gauge_parameters.cc
+    hencky.cc
+    hyperelastic_law.cc
+    linear_elastic.cc
+    load_parameters.cc
+    loads.cc
+    make_solid.cc
+    material_parameters.cc
+    neo_hookean.cc
+    parameter_file.cc
+    point_text.cc
+    probe_parameters.cc
+    saint_venant_kirchhoff.cc
+    scattered_field.cc
+    softening.cc
+    space_time_function.cc
+    stress_criteria.cc
+    table_calls.cc
+    tables.cc
+)

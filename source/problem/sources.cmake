@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+perideal_room(problem
+  SOURCES
+    advice.cc
+    advice_cells.cc
+    advice_cracks.cc
+    advice_surfaces.cc
+    body.cc
+    bond_limits.cc
+    carried_state.cc
+    carried_state_mesh.cc
+    cell_gradients.cc
+    crack_driving.cc
+    description.cc
+    discrete_body.cc
+    discrete_body_weights.cc
+    elastic_states.cc
+    failure.cc
+    finite_elements.cc
+    free_motions.cc
+    load_resultants.cc
+    loading.cc
+    make_gauges.cc
+    mesh_error.cc
+    mesh_need.cc
+    output_fields.cc
+    present_state.cc
+    problem.cc
+    run.cc
+    scene_parameters.cc
+    vertex_displacement.cc
+)

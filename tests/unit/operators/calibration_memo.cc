@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/models.h>
+#include <perideal/operators/weights/calibrated_stretches.h>
+#include <perideal/operators/weights/calibration_memo.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+using namespace perideal;
+
+namespace
+{
+  /// Stretches of a mesh, and how many families were calibrated for them on this rank.
+  template <int dim>
+  std::pair<CalibratedStretches, unsigned int> calibrated(const Mesh<dim> &mesh, CalibrationMemo *memo)
+  {
+    const test::Body<dim> body(mesh, 2.01);
+    ModelParameters       parameters;
+    parameters.model = "extended ordinary";
+    parameters.form  = "energy";
+    parameters.resolve(dim);
+    const auto       model = create_model<dim>(parameters, 1.);
+    unsigned int     n     = 0;
+    Calibration<dim> how;
+    how.fracture_of = [](const dealii::types::material_id) {
+      BondFracture<dim> fracture;
+      fracture.energy = 1.;
+      return fracture;
+    };
+    // Asked for once a family that is calibrated.
+    how.of_continuum = [&](const dealii::types::material_id, const double) {
+      ++n;
+      return 1e-3;
+    };
+    how.law  = SofteningLaw("linear");
+    how.memo = memo;
+    const ElasticConstants own{1., 0.25, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
+    const auto             stretches = calibrate_stretches<dim>(
+      *body.families,
+      BondList(*body.families),
+      *model,
+      [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); },
+      how);
+    return {stretches, n};
+  }
+} // namespace
+
+/// On a mesh of which a part has changed only families there are calibrated, and all stretches have the bits
+/// that they have without a memo.
+TEST(CalibrationMemo, KnowsTheFamiliesOfTheMeshBefore)
+{
+  const auto      mesh  = test::make_box<2>({20, 20}, {1., 1.}, 0.2, MPI_COMM_SELF);
+  const auto      finer = test::make_refined_box<2>({20, 20}, {0.2, 0.2}, 0.15, MPI_COMM_SELF);
+  CalibrationMemo memo;
+  EXPECT_GT(calibrated(*mesh, &memo).second, 0u);
+  EXPECT_EQ(calibrated(*mesh, &memo).second, 0u);
+  const auto [with, n_with]       = calibrated(*finer, &memo);
+  const auto [without, n_without] = calibrated(*finer, nullptr);
+  EXPECT_LE(2 * n_with, n_without);
+  EXPECT_EQ(with.near, without.near);
+  EXPECT_EQ(with.far, without.far);
+  EXPECT_EQ(with.first_near, without.first_near);
+  // What the last mesh did not need is gone.
+  const std::size_t n_before = memo.size();
+  EXPECT_EQ(calibrated(*finer, &memo).second, 0u);
+  EXPECT_LE(memo.size(), n_before);
+  EXPECT_GT(calibrated(*mesh, &memo).second, 0u);
+}

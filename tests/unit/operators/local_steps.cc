@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/materials/models.h>
+#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/local_steps.h>
+
+#include "bodies.h"
+#include "testing.h"
+
+#include <cmath>
+
+using namespace perideal;
+
+namespace
+{
+  /// A stretched and bent body whose nodes are of levels 0, 1 and 2 from left to right.
+  template <int dim>
+  struct SteppedBody
+  {
+    SteppedBody(const Mesh<dim> &mesh, const std::string &model, const std::string &form)
+      : body(mesh)
+    {
+      ModelParameters parameters;
+      parameters.model = model;
+      parameters.form  = form;
+      parameters.resolve(dim);
+      const ElasticConstants own = parameters.constants_of_model(
+        {1., 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain});
+      weights = weigh_bonds<dim>(body.families,
+                                 *create_model<dim>(parameters, 1.),
+                                 [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
+      bonds   = create_bond_force<dim>(*weights);
+      bonds->initialize(displacement);
+      std::vector<unsigned int> own_level;
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        {
+          const dealii::Point<dim> &x = body.nodes.position[i];
+          own_level.push_back(x[0] < 0.3 ? 0 : x[0] < 0.6 ? 1 : 2);
+          for (int d = 0; d < dim; ++d)
+            displacement.local_element(dim * i + d) =
+              0.1 * x[d] + 0.05 * std::sin(3. * x[(d + 1) % dim]) + 0.01 * test::scatter(x, d);
+        }
+      steps = std::make_shared<const LocalSteps>(*body.families, bonds->bond_list(), own_level, 3);
+      bonds->take_local_steps(steps);
+      parts.resize(3);
+      for (NodalVector &part : parts)
+        bonds->initialize(part);
+    }
+
+    NodalVector force()
+    {
+      NodalVector result(displacement);
+      bonds->compute(result, displacement);
+      return result;
+    }
+
+    NodalVector sum_of_parts(const unsigned int highest)
+    {
+      bonds->compute_parts(parts, displacement, highest);
+      NodalVector result(parts[0]);
+      for (unsigned int level = 1; level <= highest; ++level)
+        result += parts[level];
+      return result;
+    }
+
+    /// Moves the nodes of the levels up to one.
+    void move(const unsigned int highest)
+    {
+      for (LocalIndex i = 0; i < body.nodes.size(); ++i)
+        for (int d = 0; d < dim && steps->level_of(i) <= highest; ++d)
+          displacement.local_element(dim * i + d) += 0.01 * test::scatter(body.nodes.position[i], d + 7);
+    }
+
+    test::Body<dim>                   body;
+    std::shared_ptr<BondWeights<dim>> weights;
+    std::unique_ptr<BondForce<dim>>   bonds;
+    std::shared_ptr<const LocalSteps> steps;
+    std::vector<NodalVector>          parts;
+    NodalVector                       displacement;
+  };
+
+  const std::vector<std::pair<std::string, std::string>> models = {{"bond based", "energy"},
+                                                                   {"ordinary", "energy"},
+                                                                   {"extended ordinary", "paper"},
+                                                                   {"extended ordinary", "energy"}};
+
+  /// Parts of all levels are the force; those of some levels change as it does where only their nodes move.
+  template <int dim>
+  void expect_parts_of_force(const Mesh<dim> &mesh)
+  {
+    for (const auto &[model, form] : models)
+      {
+        SteppedBody<dim>  body(mesh, model, form);
+        const NodalVector whole = body.force();
+        const double      scale = whole.l2_norm();
+        NodalVector       sum   = body.sum_of_parts(2);
+        sum -= whole;
+        EXPECT_LE(sum.l2_norm(), 1e-13 * scale) << model << ' ' << form;
+        for (unsigned int highest = 0; highest < 3; ++highest)
+          {
+            NodalVector change = body.force();
+            // Seen beside what all levels together have left.
+            body.sum_of_parts(2);
+            NodalVector change_of_parts(body.parts[0]);
+            for (unsigned int level = 1; level <= highest; ++level)
+              change_of_parts += body.parts[level];
+            body.move(highest);
+            change_of_parts -= body.sum_of_parts(highest);
+            change -= body.force();
+            change -= change_of_parts;
+            EXPECT_LE(change.l2_norm(), 1e-13 * scale) << model << ' ' << form << " level " << highest;
+          }
+      }
+  }
+} // namespace
+
+TEST(LocalSteps, PartsAreThoseOfTheForce)
+{
+  for (const auto &mesh : test::make_boxes<2>())
+    expect_parts_of_force(*mesh);
+  for (const auto &mesh : test::make_boxes<3>())
+    expect_parts_of_force(*mesh);
+  // Some blocks of rows are beyond the reach of the lowest level.
+  expect_parts_of_force(*test::make_box<2>({60, 12}, {1.5, 0.3}, 0.2));
+}
+
+/// Nodes are of the lowest level in their family, families of that of their members.
+TEST(LocalSteps, LevelsReachOverAFamily)
+{
+  const auto     mesh = test::make_box<2>({40, 5}, {1., 0.125}, 0.);
+  SteppedBody<2> body(*mesh, "bond based", "energy");
+  // Columns of cells of .025 with horizons of 3.01 cells: bounds move by three columns, those of families by
+  // six.
+  for (LocalIndex i = 0; i < body.body.nodes.size(); ++i)
+    {
+      const double x = body.body.nodes.position[i][0];
+      EXPECT_EQ(body.steps->level_of(i), x < 0.375 ? 0u : x < 0.675 ? 1u : 2u) << x;
+    }
+  const std::vector<GlobalIndex> expected = {90, 60, 50};
+  EXPECT_EQ(body.steps->n_families(), expected);
+  EXPECT_TRUE(body.steps->any_up_to(0));
+  EXPECT_NEAR(body.steps->share_of_cell_steps(), (90 + 30 + 12.5) / 200., 1e-14);
+}
+
+/// With all levels, what breaks and what is left is as without levels.
+TEST(LocalSteps, BondsAreJudgedWithAllLevels)
+{
+  const auto mesh = test::make_box<2>({40, 5}, {1., 0.125}, 0.);
+  for (const auto &[model, form] : models)
+    {
+      SteppedBody<2> parts(*mesh, model, form), whole(*mesh, model, form);
+      for (auto *body : {&parts, &whole})
+        body->bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.1; });
+      NodalVector difference = parts.sum_of_parts(2);
+      difference -= whole.force();
+      EXPECT_GT(whole.bonds->n_broken_now(), 0u);
+      EXPECT_EQ(parts.bonds->n_broken_now(), whole.bonds->n_broken_now());
+      EXPECT_LE(difference.l2_norm(), 1e-13 * parts.parts[0].l2_norm());
+      EXPECT_NEAR(parts.bonds->strain_energy(), whole.bonds->strain_energy(), 1e-13);
+    }
+}
