@@ -57,7 +57,7 @@ namespace perideal
     };
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       work.force.local_element(k) += of_others(k);
-    own.between = sub_steps->take_steps(work.force, displacement);
+    own.between = sub_steps->take_steps(work.force);
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       work.force.local_element(k) -= of_others(k);
   }

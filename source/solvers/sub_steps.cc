@@ -2,8 +2,6 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/solvers/sub_steps.h>
 
-#include <cmath>
-
 namespace perideal
 {
   template <int dim>
@@ -26,9 +24,13 @@ namespace perideal
     for (NodalVector &part : parts)
       bonds.initialize(part);
     for (Level &level : levels)
-      for (NodalVector *vector : {&level.way, &level.place, &level.force, &level.before})
+      for (NodalVector *vector : {&level.way, &level.force, &level.before, &level.place})
         bonds.initialize(*vector);
+    bonds.initialize(place);
     bonds.initialize(whole_way);
+    if (contact)
+      for (LocalIndex i = 0; i < mass.size(); ++i)
+        all.push_back(i);
   }
 
   template <int dim>
@@ -39,45 +41,60 @@ namespace perideal
 
   template <int dim>
   template <typename Visit>
-  void SubSteps<dim>::visit_moving(const unsigned int level, const Visit &visit) const
+  void SubSteps<dim>::visit_components(const std::vector<LocalIndex> &nodes, const Visit &visit)
   {
-    for (LocalIndex i = 0; i < mass.size(); ++i)
-      if (steps->level_of(i) <= level)
-        for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
-          if (!is_held[k])
-            visit(k);
+    for (const std::size_t i : nodes)
+      for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
+        visit(k);
   }
 
   template <int dim>
-  void SubSteps<dim>::compute_parts(const NodalVector &displacement, const unsigned int highest)
+  template <typename Visit>
+  void SubSteps<dim>::visit_free(const std::vector<LocalIndex> &nodes, const Visit &visit) const
   {
-    bonds.compute_parts(parts, displacement, highest);
+    visit_components(nodes, [&](const std::size_t k) {
+      if (!is_held[k])
+        visit(k);
+    });
+  }
+
+  template <int dim>
+  void SubSteps<dim>::compute_parts(const unsigned int highest)
+  {
+    // Contact is where bonds are not.
+    if (contact)
+      parts[0] = 0.;
+    bonds.compute_parts(parts, place, highest);
     if (contact)
       contact->add(parts[0], bonds);
   }
 
   template <int dim>
-  void SubSteps<dim>::sum_parts(const unsigned int highest, NodalVector &sum) const
+  double SubSteps<dim>::sum_of_parts(const std::size_t k, const unsigned int highest) const
   {
-    sum = parts[0];
-    for (unsigned int level = 1; level <= highest; ++level)
-      sum += parts[level];
+    double result = 0;
+    for (unsigned int level = 0; level <= highest; ++level)
+      result += parts[level].local_element(k);
+    return result;
   }
 
   template <int dim>
   void SubSteps<dim>::compute(NodalVector &force, const NodalVector &displacement)
   {
-    compute_parts(displacement, steps->n_levels() - 1);
-    sum_parts(steps->n_levels() - 1, force);
+    const unsigned int highest = steps->n_levels() - 1;
+    place                      = displacement;
+    compute_parts(highest);
+    for (std::size_t k = 0; k < dim * mass.size(); ++k)
+      force.local_element(k) = sum_of_parts(k, highest);
   }
 
   template <int dim>
-  double SubSteps<dim>::take_steps(NodalVector &force, const NodalVector &displacement)
+  double SubSteps<dim>::take_steps(NodalVector &force)
   {
     energy = 0;
     // Softened bonds keep what they have; what they would soften by on the way is not for good.
     bonds.judge_bonds(Judgement::on_trial);
-    move(steps->n_levels() - 1, displacement, force, true, whole_way);
+    move(steps->n_levels() - 1, force, true, whole_way);
     bonds.judge_bonds(Judgement::for_good);
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       force.local_element(k) = 2. * mass[k / dim] * whole_way.local_element(k) / (longest * longest);
@@ -86,37 +103,47 @@ namespace perideal
 
   template <int dim>
   void SubSteps<dim>::move(const unsigned int level,
-                           const NodalVector &from,
                            const NodalVector &force,
-                           const bool         at_present,
+                           const bool         at_start,
                            NodalVector       &way)
   {
     // 2 c.
     constexpr double of_second = LocalSteps::omega / LocalSteps::nu;
     const double     step      = step_of(level);
-    if (level == 0 || !steps->any_up_to(level - 1))
-      {
-        for (std::size_t k = 0; k < dim * mass.size(); ++k)
-          way.local_element(k) = 0.5 * step * step * force.local_element(k) / mass[k / dim];
-        return;
-      }
-    Level &own = levels[level];
-    sum_parts(level - 1, own.before);
-    move(level - 1, from, force, at_present, own.way);
-    if (at_present)
-      visit_moving(level - 1, [&](const std::size_t k) {
-        const double velocity = own.way.local_element(k) / step_of(level - 1);
-        energy -= of_second * mass[k / dim] * velocity * velocity;
-      });
-    own.place = from;
-    visit_moving(level - 1,
-                 [&](const std::size_t k) { own.place.local_element(k) += own.way.local_element(k); });
-    compute_parts(own.place, level - 1);
-    sum_parts(level - 1, own.force);
-    own.force -= own.before;
-    own.force += force;
-    move(level - 1, own.place, own.force, false, way);
-    way.sadd(of_second * LocalSteps::growth_square, (1. - of_second) * LocalSteps::growth_square, own.way);
+    const bool       is_whole  = level == 0 || !steps->any_up_to(level - 1);
+    const auto      &nodes     = pulled(level);
+    visit_components(nodes, [&](const std::size_t k) {
+      if (is_whole || !changes(k / dim, level - 1))
+        way.local_element(k) = way_of(force, k, step);
+    });
+    if (is_whole)
+      return;
+
+    const unsigned int             lower  = level - 1;
+    const std::vector<LocalIndex> &moving = steps->moving(lower), &changed = pulled(lower);
+    const double                   interval = step_of(lower);
+    Level                         &own      = levels[level];
+    visit_components(changed,
+                     [&](const std::size_t k) { own.before.local_element(k) = sum_of_parts(k, lower); });
+    move(lower, force, at_start, own.way);
+    visit_free(moving, [&](const std::size_t k) {
+      const double first = own.way.local_element(k);
+      if (at_start)
+        energy -= of_second * mass[k / dim] * first * first / (interval * interval);
+      own.place.local_element(k) = place.local_element(k);
+      place.local_element(k) += first;
+    });
+    compute_parts(lower);
+    visit_components(changed, [&](const std::size_t k) {
+      own.force.local_element(k) =
+        force.local_element(k) + sum_of_parts(k, lower) - own.before.local_element(k);
+    });
+    move(lower, own.force, false, way);
+    visit_free(moving, [&](const std::size_t k) { place.local_element(k) = own.place.local_element(k); });
+    visit_components(changed, [&](const std::size_t k) {
+      double &whole = way.local_element(k);
+      whole = LocalSteps::growth_square * ((1. - of_second) * own.way.local_element(k) + of_second * whole);
+    });
   }
 
   template <int dim>

@@ -62,29 +62,44 @@ namespace perideal
 
     /// Turns all that acts on the nodes after compute() into the effective force. Collective.
     /// @return what the motion between takes from the energy, of this rank [J]
-    double take_steps(NodalVector &force, const NodalVector &displacement);
+    double take_steps(NodalVector &force);
 
     /// Brings bonds and contact back to the state of compute(), for who asks for their energies. Collective.
     void settle(const NodalVector &displacement);
 
   private:
-    /// Finds the way from rest at @p from during a step of a level.
-    /// @param at_present whether bonds have been judged there: the energy of the way counts
-    void move(const unsigned int level,
-              const NodalVector &from,
-              const NodalVector &force,
-              const bool         at_present,
-              NodalVector       &way);
+    /// Finds the way from rest at the present place during a step of a level, of the nodes that the forces of
+    /// this level change; of the highest one, of all.
+    /// @param at_start whether bonds have been judged there: the energy of the way counts
+    void move(const unsigned int level, const NodalVector &force, const bool at_start, NodalVector &way);
 
-    /// Bonds and contact with the parts of the levels up to one.
-    void compute_parts(const NodalVector &displacement, const unsigned int highest);
-    void sum_parts(const unsigned int highest, NodalVector &sum) const;
+    /// The way as long as the force is the same.
+    double way_of(const NodalVector &force, const std::size_t k, const double step) const
+    {
+      return 0.5 * step * step * force.local_element(k) / mass[k / dim];
+    }
 
-    /// Calls visit(k) with the components that move in steps of a level or shorter ones.
+    /// Bonds and contact at the present place, with the parts of the levels up to one.
+    void   compute_parts(const unsigned int highest);
+    double sum_of_parts(const std::size_t k, const unsigned int highest) const;
+
+    /// Calls visit(k) with the components of some nodes; without those held.
     template <typename Visit>
-    void visit_moving(const unsigned int level, const Visit &visit) const;
+    static void visit_components(const std::vector<LocalIndex> &nodes, const Visit &visit);
+    template <typename Visit>
+    void visit_free(const std::vector<LocalIndex> &nodes, const Visit &visit) const;
 
     double step_of(const unsigned int level) const;
+
+    /// Owned nodes whose force changes where those of the levels up to one move: with contact, any.
+    const std::vector<LocalIndex> &pulled(const unsigned int level) const
+    {
+      return contact ? all : steps->pulled(level);
+    }
+    bool changes(const LocalIndex node, const unsigned int level) const
+    {
+      return contact || steps->level_of_force(node) <= level;
+    }
 
     BondForce<dim>                   &bonds;
     std::shared_ptr<const LocalSteps> steps;
@@ -93,17 +108,19 @@ namespace perideal
     const std::vector<std::uint8_t>  &is_held;
     const double                      longest;
 
+    /// All owned nodes where there is contact.
+    std::vector<LocalIndex> all;
     /// Of the bonds, by level; contact is in the lowest.
     std::vector<NodalVector> parts;
 
-    /// Work space of a level: the way of its first shorter step, where that leads, the force there, and the
-    /// parts of the force before.
+    /// Work space of a level: the way of its first shorter step, the force there, the parts of the force
+    /// before, and where nodes were.
     struct Level
     {
-      NodalVector way, place, force, before;
+      NodalVector way, force, before, place;
     };
     std::vector<Level> levels;
-    NodalVector        whole_way;
+    NodalVector        place, whole_way;
     double             energy = 0;
   };
 } // namespace perideal

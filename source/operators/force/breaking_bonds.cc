@@ -94,13 +94,38 @@ namespace perideal
       for (LocalIndex i = 0; i < families->n_local(); ++i)
         for (int d = 0; d < dim; ++d)
           (*records)[i].value[d] = source->local_element(dim * i + d);
+    regions.update([&](const LocalIndex i) { return has_moved(i); });
+    ghosted.zero_out_ghost_values();
+  }
+
+  template <int dim>
+  bool BreakingBonds<dim>::has_moved(const LocalIndex i) const
+  {
     // A displacement that rounding takes from the position has moved nothing.
-    regions.update([&](const LocalIndex i) {
+    for (int d = 0; d < dim; ++d)
+      if (position[i].value[d] != families->position[i][d])
+        return true;
+    return false;
+  }
+
+  template <int dim>
+  void BreakingBonds<dim>::move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes)
+  {
+    n_lost_before = this->lost.size();
+    softening.begin(critical_stretch);
+    const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
+    for (const LocalIndex i : nodes)
       for (int d = 0; d < dim; ++d)
-        if (position[i].value[d] != families->position[i][d])
-          return true;
-      return false;
-    });
+        {
+          ghosted.local_element(dim * i + d) = displacement.local_element(dim * i + d);
+          position[i].value[d] = families->position[i][d] + displacement.local_element(dim * i + d);
+        }
+    if (n_local > n_owned)
+      ghosted.update_ghost_values();
+    for (LocalIndex i = n_owned; i < n_local; ++i)
+      for (int d = 0; d < dim; ++d)
+        position[i].value[d] = families->position[i][d] + ghosted.local_element(dim * i + d);
+    regions.update([&](const LocalIndex i) { return has_moved(i); }, nodes);
     ghosted.zero_out_ghost_values();
   }
 

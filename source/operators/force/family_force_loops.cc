@@ -12,8 +12,6 @@ namespace perideal
   template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families(const Levels levels)
   {
-    for (unsigned int a = 0; a < n_sums; ++a)
-      std::fill(sums[a].begin(), sums[a].end(), 0.);
     const LocalIndex *neighbour = bonds.neighbour.data();
     const NodeRecord *y         = position.data();
     const double      unit_sum  = unit.sum;
@@ -74,7 +72,6 @@ namespace perideal
     const auto       &pull_weights = weights.force_weights();
     const Lanes       tiny         = Lanes{} + 1e-300; // keeps padding, of length zero, from 0/0
     const double      unit_force = unit.force, unit_stiffness = unit.stiffness;
-    std::fill(forces.begin(), forces.end(), NodeRecord{});
 
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       {
@@ -167,22 +164,43 @@ namespace perideal
                                                                   const unsigned int        highest)
   {
     broken_now.clear();
-    this->move_nodes(displacement);
+    if (highest + 1 == local_steps->n_levels())
+      this->move_nodes(displacement);
+    else
+      this->move_some(displacement, local_steps->moving(highest));
     with_failing([&](const auto failing) {
       // Families of higher levels miss bonds in their sums; their members have not moved.
       if constexpr (n_sums > 0)
         {
+          for (auto &values : sums)
+            clear(values, local_steps->pulled(highest), 0.);
           sum_over_families<failing.value>({0, highest});
-          turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const LocalIndex i) {
-            return local_steps->level_of_family(i) <= highest;
+          turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const auto &visit) {
+            for (const LocalIndex i : local_steps->families(highest))
+              visit(i);
           });
         }
       for (unsigned int level = 0; level <= highest; ++level)
         {
+          const std::vector<LocalIndex> &nodes = local_steps->pulled_alone(level);
+          clear(forces, nodes, NodeRecord{});
           sum_forces<failing_of_forces<failing.value>>({level, level});
-          copy_forces(parts[level]);
+          for (const LocalIndex i : nodes)
+            for (int d = 0; d < dim; ++d)
+              parts[level].local_element(dim * i + d) = forces[i].value[d];
         }
     });
+  }
+
+  template <int dim, unsigned int n_sums, bool own_force_weights>
+  template <typename Values, typename Value>
+  void FamilyForce<dim, n_sums, own_force_weights>::clear(Values                        &values,
+                                                          const std::vector<LocalIndex> &nodes,
+                                                          const Value                   &zero) const
+  {
+    for (const LocalIndex i : nodes)
+      values[i] = zero;
+    std::fill(values.begin() + families->n_owned(), values.end(), zero);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -191,16 +209,13 @@ namespace perideal
   {
     if constexpr (n_sums > 0)
       {
+        for (auto &values : sums)
+          std::fill(values.begin(), values.end(), 0.);
         sum_over_families<failing>({});
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
       }
+    std::fill(forces.begin(), forces.end(), NodeRecord{});
     sum_forces<failing_of_forces<failing>>({});
-    copy_forces(force);
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::copy_forces(NodalVector &force) const
-  {
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = forces[i].value[d];

@@ -56,7 +56,6 @@ namespace perideal
   {
     const std::vector<unsigned int> of_families = lowest_of_neighbours(families, bonds, nodes);
     nodes.resize(families.n_owned());
-    this->families.assign(of_families.begin(), of_families.begin() + families.n_owned());
     const auto add = [&](const LocalIndex row, const LocalIndex family) {
       unsigned int &level = blocks[row / RestRegions::block_size];
       level               = std::min(level, of_families[family]);
@@ -67,9 +66,44 @@ namespace perideal
         ++counts[of_families[i]];
       }
     visit_ends(bonds, add);
+    make_lists(bonds, of_families);
     dealii::Utilities::MPI::sum(counts, families.communicator, counts);
     lowest =
       std::find_if(counts.begin(), counts.end(), [](const GlobalIndex n) { return n > 0; }) - counts.begin();
+  }
+
+  void LocalSteps::make_lists(const BondList &bonds, const std::vector<unsigned int> &of_families)
+  {
+    const auto        n_owned = nodes.size();
+    std::vector<bool> is_pulled(n_owned);
+    forces.assign(n_owned, n_levels() - 1);
+    lists.resize(n_levels());
+    for (unsigned int level = 0; level < n_levels(); ++level)
+      {
+        std::fill(is_pulled.begin(), is_pulled.end(), false);
+        const auto add = [&](const LocalIndex row, const LocalIndex node) {
+          if (blocks[row / RestRegions::block_size] == level && node < n_owned)
+            {
+              is_pulled[node] = true;
+              forces[node]    = std::min(forces[node], level);
+            }
+        };
+        visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
+          add(i, i);
+          add(i, j);
+        });
+        for (LocalIndex i = 0; i < n_owned; ++i)
+          {
+            if (nodes[i] <= level)
+              lists[level].moving.push_back(i);
+            if (of_families[i] <= level)
+              lists[level].families.push_back(i);
+            if (forces[i] <= level)
+              lists[level].pulled.push_back(i);
+            if (is_pulled[i])
+              lists[level].pulled_alone.push_back(i);
+          }
+      }
   }
 
   bool LocalSteps::any_up_to(const unsigned int level) const
@@ -91,7 +125,11 @@ namespace perideal
   std::size_t LocalSteps::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(nodes) + memory_consumption(families) + memory_consumption(blocks);
+    std::size_t result = 0;
+    for (const Lists &of_level : lists)
+      result += memory_consumption(of_level.moving) + memory_consumption(of_level.families) +
+                memory_consumption(of_level.pulled) + memory_consumption(of_level.pulled_alone);
+    return result + memory_consumption(nodes) + memory_consumption(forces) + memory_consumption(blocks);
   }
 
   template LocalSteps::LocalSteps(const Families<2> &,

@@ -68,6 +68,7 @@ namespace perideal
 
   void RestRegions::spread()
   {
+    has_spread = true;
     for (LocalIndex block = 0; block < n_row_blocks; ++block)
       if (!in_sums[block])
         in_sums[block] = moved[block] || std::any_of(neighbours.blocks[block].begin(),
@@ -83,6 +84,10 @@ namespace perideal
                              std::any_of(neighbours.blocks[block].begin(),
                                          neighbours.blocks[block].end(),
                                          [&](const auto b) { return b < n_row_blocks && in_sums[b] != 0; });
+  }
+
+  void RestRegions::look_for_sleepers()
+  {
     const unsigned int asleep =
       std::any_of(in_sums.begin(), in_sums.end(), [](const auto a) { return a == 0; }) ||
       std::any_of(in_forces.begin(), in_forces.end(), [](const auto a) { return a == 0; });

@@ -91,6 +91,9 @@ namespace perideal
     /// null
     void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
 
+    /// As move_nodes(), where owned nodes other than these, and what follows of theirs, are where they were.
+    void move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes);
+
     /// Softens or breaks a bond of this stretch, which is beyond its limit; the caller has looked at its
     /// weights.
     SofteningBonds::Change overstretch(const BondIndex slot, const LocalIndex near, const double stretch);
@@ -112,6 +115,8 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
+    bool has_moved(const LocalIndex i) const;
+
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
 

@@ -136,7 +136,7 @@ namespace perideal
     {
       unsigned int first = 0, last = std::numeric_limits<unsigned int>::max();
     };
-    /// The passes over the bonds; lengths are checked in the first.
+    /// The passes over the bonds, which add to sums and forces; lengths are checked in the first.
     template <Failing failing>
     void sum_over_families(const Levels levels);
     template <Failing failing>
@@ -158,7 +158,9 @@ namespace perideal
     /// Calls compute(failing) with what happens to bonds that are too long, as a constant.
     template <typename Compute>
     void with_failing(const Compute &compute) const;
-    void copy_forces(NodalVector &force) const;
+    /// Makes values of some owned nodes and of all ghosts zero.
+    template <typename Values, typename Value>
+    void clear(Values &values, const std::vector<LocalIndex> &nodes, const Value &zero) const;
 
     /// Breaks or softens those of a group of bonds that are too long.
     /// @param excess of their lengths over the largest ones [m]

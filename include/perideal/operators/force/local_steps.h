@@ -43,8 +43,19 @@ namespace perideal
     unsigned int n_levels() const { return static_cast<unsigned int>(counts.size()); }
 
     unsigned int level_of(const LocalIndex node) const { return nodes[node]; }
-    unsigned int level_of_family(const LocalIndex node) const { return families[node]; }
+    /// The lowest level whose blocks have bonds of an owned node.
+    unsigned int level_of_force(const LocalIndex node) const { return forces[node]; }
     unsigned int level_of_block(const LocalIndex block) const { return blocks[block]; }
+
+    /// Owned nodes, in their order: those of the levels up to one; those with families of these levels; those
+    /// whose bonds are in blocks of these levels, or of this one alone.
+    const std::vector<LocalIndex> &moving(const unsigned int level) const { return lists[level].moving; }
+    const std::vector<LocalIndex> &families(const unsigned int level) const { return lists[level].families; }
+    const std::vector<LocalIndex> &pulled(const unsigned int level) const { return lists[level].pulled; }
+    const std::vector<LocalIndex> &pulled_alone(const unsigned int level) const
+    {
+      return lists[level].pulled_alone;
+    }
 
     /// Whether any node of any rank is of this level or a lower one.
     bool any_up_to(const unsigned int level) const;
@@ -58,10 +69,17 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
+    void make_lists(const BondList &bonds, const std::vector<unsigned int> &of_families);
+
     /// By owned node, and by block of its rows.
-    std::vector<unsigned int> nodes, families, blocks;
-    std::vector<GlobalIndex>  counts;
-    unsigned int              lowest;
+    std::vector<unsigned int> nodes, forces, blocks;
+    struct Lists
+    {
+      std::vector<LocalIndex> moving, families, pulled, pulled_alone;
+    };
+    std::vector<Lists>       lists;
+    std::vector<GlobalIndex> counts;
+    unsigned int             lowest;
   };
 } // namespace perideal
 

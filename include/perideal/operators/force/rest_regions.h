@@ -34,6 +34,10 @@ namespace perideal
     template <typename HasMoved>
     void update(const HasMoved &has_moved);
 
+    /// As update(), where no others than some owned nodes and the ghosts may have begun to move. Collective.
+    template <typename HasMoved>
+    void update(const HasMoved &has_moved, const std::vector<LocalIndex> &nodes);
+
     /// From now on computes what nodes that count and their neighbours need, whatever moves. Collective.
     /// @param counts of a local node
     void keep_awake(const std::function<bool(const LocalIndex)> &counts);
@@ -58,12 +62,16 @@ namespace perideal
 
   private:
     LocalIndex block_of(const LocalIndex node) const;
-    void       spread();
+    /// Looks for motion that begins, and wakes what it reaches. Collective.
+    template <typename HasMoved, typename Nodes>
+    void wake(const HasMoved &has_moved, const Nodes &visit_nodes);
+    void spread();
+    void look_for_sleepers();
 
     LocalIndex n_owned, n_local, n_row_blocks;
     bool       through_states;
     MPI_Comm   communicator;
-    bool       all_awake = false;
+    bool       all_awake = false, has_spread = false;
 
     /// Slots of all updates so far.
     struct Counts
@@ -89,13 +97,10 @@ namespace perideal
   void RestRegions::update(const HasMoved &has_moved)
   {
     double awake = 0, all = 0;
-    if (!all_awake)
-      {
-        for (LocalIndex i = 0; i < n_local; ++i)
-          if (!moved[block_of(i)] && has_moved(i))
-            moved[block_of(i)] = 1;
-        spread();
-      }
+    wake(has_moved, [&](const auto &look) {
+      for (LocalIndex i = 0; i < n_local; ++i)
+        look(i);
+    });
     for (LocalIndex block = 0; block < n_row_blocks; ++block)
       {
         all += slots[block];
@@ -103,6 +108,32 @@ namespace perideal
       }
     computed.all += all;
     computed.awake += awake;
+  }
+
+  template <typename HasMoved>
+  void RestRegions::update(const HasMoved &has_moved, const std::vector<LocalIndex> &nodes)
+  {
+    wake(has_moved, [&](const auto &look) {
+      for (const LocalIndex i : nodes)
+        look(i);
+      for (LocalIndex i = n_owned; i < n_local; ++i)
+        look(i);
+    });
+  }
+
+  template <typename HasMoved, typename Nodes>
+  void RestRegions::wake(const HasMoved &has_moved, const Nodes &visit_nodes)
+  {
+    if (all_awake)
+      return;
+    bool begins = false;
+    visit_nodes([&](const LocalIndex i) {
+      if (!moved[block_of(i)] && has_moved(i))
+        moved[block_of(i)] = begins = true;
+    });
+    if (begins || !has_spread)
+      spread();
+    look_for_sleepers();
   }
 } // namespace perideal
 
