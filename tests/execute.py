@@ -6,10 +6,10 @@ import signal
 import subprocess
 import tempfile
 
-# One thread a rank; Open MPI may run as root (containers), and a program alone starts no daemon, which takes longer than
-# most of these runs.
+# One thread a rank; Open MPI may run as root (containers), and a program alone starts no daemon and looks for no network,
+# which takes longer than most of these runs.
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-               "OMPI_MCA_ess_singleton_isolated": "1"}
+               "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1"}
 
 
 def environment(temporary=None):

@@ -105,6 +105,14 @@ def check(runs):
     runs.run("changing", overrides=changing + ["Checkpoints/Restart=true"])
     runs.expect_same_bits("changing", "changing whole")
 
+    # The same on a mesh that follows the cracks, after steps 190, 200, 210, ...: between its changes, and at one.
+    adapting = frames + ["Adaptation/Levels=1", "Adaptation/Interval=10"]
+    runs.run("adapting whole", overrides=adapting)
+    for step in (195, 200):
+        runs.stop(f"adapting {step}", signal.SIGKILL, step, overrides=adapting + [f"Checkpoints/Steps={step}"])
+        runs.run(f"adapting {step}", overrides=adapting + ["Checkpoints/Restart=true"])
+        runs.expect_same_bits(f"adapting {step}", "adapting whole")
+
     # Killed while it writes, again and again, at moments of chance.
     for step in (40, 110, 170, 230):
         restart = ["Checkpoints/Restart=true"] if step > 40 else []

@@ -199,6 +199,13 @@ namespace perideal
         "set Material/Form = energy"),
       refuse(
         "Solver/Local step ratio",
+        "Solver/Local step ratio > 1, with bonds that break or contact",
+        [](const Scene &s) { return s.solver.local_step_ratio > 1 && (can_break(s) || has_contact(s)); },
+        "bonds and contact would be looked at after the longest steps only",
+        "1 where bonds break or nodes touch",
+        "without a fracture energy, a critical stretch or a criterion: set Contact/Enabled = false"),
+      refuse(
+        "Solver/Local step ratio",
         "Solver/Local step ratio > 1, with Solver/Relative damping > 0",
         [](const Scene &s) { return s.solver.local_step_ratio > 1 && s.solver.relative_damping > 0; },
         "damping against the family acts in every step",

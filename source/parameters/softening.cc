@@ -62,15 +62,15 @@ namespace perideal
     const auto   stretch_at = [&](const std::pair<double, double> &point) {
       return first * point.second + opening * point.first;
     };
-    for (std::size_t k = 1; k < curve.size(); ++k)
-      if (const double end = stretch_at(curve[k]); stretch < end)
-        {
-          const double begin   = stretch_at(curve[k - 1]);
-          const double share   = std::max(0., (stretch - begin) / (end - begin));
-          const double change  = (curve[k].second - curve[k - 1].second) * first;
-          const double carried = (curve[k - 1].second * first + share * change) / stretch;
-          return {carried, (change / (end - begin) - carried) / stretch};
-        }
-    return {0., 0.};
+    // Stretches grow along the curve.
+    const auto line = std::partition_point(
+      curve.begin() + 1, curve.end(), [&](const auto &point) { return stretch_at(point) <= stretch; });
+    if (line == curve.end())
+      return {0., 0.};
+    const double begin = stretch_at(*(line - 1)), end = stretch_at(*line);
+    const double share   = std::max(0., (stretch - begin) / (end - begin));
+    const double change  = (line->second - (line - 1)->second) * first;
+    const double carried = ((line - 1)->second * first + share * change) / stretch;
+    return {carried, (change / (end - begin) - carried) / stretch};
   }
 } // namespace perideal

@@ -144,24 +144,23 @@ namespace perideal
   }
 
   template <int dim>
-  GlobalIndex CarriedState<dim>::flag(Mesh<dim>           &mesh,
-                                      const MeshNeed<dim> &need,
-                                      const unsigned int   levels,
-                                      const bool           joins) const
+  GlobalIndex CarriedState<dim>::flag(Mesh<dim> &mesh, const MeshNeed<dim> &need, const bool joins) const
   {
     const auto  blocked  = blocked_cells(mesh.triangulation);
     GlobalIndex n_halved = 0;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const Numbers &numbers = numbers_of_cell[cell->active_cell_index()];
-          const bool     is_near = need.is_near(cell);
-          if (is_near && halvings(mesh, cell) < levels && !blocked[cell->active_cell_index()])
+          const Numbers     &numbers = numbers_of_cell[cell->active_cell_index()];
+          const unsigned int n       = halvings(mesh, cell);
+          if (need.needs(cell, n, n + 1))
             {
+              if (blocked[cell->active_cell_index()])
+                continue;
               cell->set_refine_flag();
               ++n_halved;
             }
-          else if (joins && !is_near && halvings(mesh, cell) > 0 && numbers[is_quiet] > 0 &&
+          else if (joins && n > 0 && !need.needs(cell, n, n) && numbers[is_quiet] > 0 &&
                    numbers[is_kept] == 0)
             cell->set_coarsen_flag();
         }
@@ -199,7 +198,7 @@ namespace perideal
     auto &triangulation = mesh.triangulation;
     for (unsigned int pass = 0; pass <= levels; ++pass)
       {
-        const GlobalIndex n_halved = flag(mesh, need, levels, pass == 0);
+        const GlobalIndex n_halved = flag(mesh, need, pass == 0);
         if (pass > 0 && n_halved == 0)
           break;
         const auto pack = [&](const Cell &cell, const auto status) {

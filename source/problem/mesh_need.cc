@@ -56,6 +56,8 @@ namespace perideal
   MeshNeed<dim>::MeshNeed(const Problem<dim> &problem, const double time)
     : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
     , time(time)
+    , levels(problem.parameters.adaptation.levels)
+    , layers(1. + std::floor(problem.parameters.nodes.horizon_factor))
   {
     const AdaptationParameters &adaptation   = problem.parameters.adaptation;
     const Nodes<dim>           &nodes        = *problem.body.nodes;
@@ -87,10 +89,21 @@ namespace perideal
   }
 
   template <int dim>
-  bool MeshNeed<dim>::is_in(const Boxes &boxes, const Cell &cell) const
+  bool MeshNeed<dim>::needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const
+  {
+    double margin = 0, size = std::ldexp(cell->minimum_vertex_distance(), static_cast<int>(halvings));
+    for (unsigned int k = 0; k < levels; ++k, size /= 2.)
+      margin += k >= wanted ? layers * size : 0.;
+    return wanted <= levels && is_in(within_reach, cell, margin);
+  }
+
+  template <int dim>
+  bool MeshNeed<dim>::is_in(const Boxes &boxes, const Cell &cell, const double margin) const
   {
     namespace bgi = boost::geometry::index;
-    return boxes.qbegin(bgi::intersects(cell->bounding_box())) != boxes.qend() ||
+    auto box      = cell->bounding_box();
+    box.extend(margin);
+    return boxes.qbegin(bgi::intersects(box)) != boxes.qend() ||
            (where.is_present() && where.value(cell->center(), time) != 0.);
   }
 

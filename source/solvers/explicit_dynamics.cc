@@ -36,17 +36,7 @@ namespace perideal
   template <int dim>
   void ExplicitDynamics<dim>::take_sub_steps(const std::shared_ptr<const LocalSteps> &steps)
   {
-    sub_steps =
-      std::make_unique<SubSteps<dim>>(bonds, steps, added.contact, mass, held.nodes.mask(), scheme.time_step);
-  }
-
-  template <int dim>
-  void ExplicitDynamics<dim>::start_half_step(const NodalVector &external)
-  {
-    if (n_steps == 0 && scheme.start == Start::velocity_verlet)
-      for (std::size_t k = 0; k < dim * mass.size(); ++k)
-        velocity.local_element(k) -=
-          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
+    sub_steps = std::make_unique<SubSteps<dim>>(bonds, steps, mass, held.nodes.mask(), scheme.time_step);
   }
 
   template <int dim>
@@ -100,23 +90,21 @@ namespace perideal
     if (sub_steps)
       sub_steps->compute(work.force, displacement);
     else
-      {
-        bonds.compute(work.force, displacement);
-        if (added.contact)
-          added.contact->add(work.force, bonds);
-        start_half_step(external);
-      }
+      bonds.compute(work.force, displacement);
     breaks.now = bonds.n_broken_now();
     breaks.total += breaks.now;
+    if (added.contact)
+      added.contact->add(work.force, bonds);
+    if (sub_steps)
+      take_steps_between(external);
+    if (n_steps == 0 && scheme.start == Start::velocity_verlet)
+      for (std::size_t k = 0; k < dim * mass.size(); ++k)
+        velocity.local_element(k) -=
+          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
     breaks.switched += bonds.switched_energy(velocity, scheme.time_step);
     const SofteningBonds &softening = bonds.softening_bonds();
     if (softening.softens() ? softening.any_now(displacement.get_mpi_communicator()) : breaks.now > 0)
       breaks.energy += bonds.released_energy(velocity, scheme.time_step);
-    if (sub_steps)
-      {
-        take_steps_between(external);
-        start_half_step(external);
-      }
 
     work.earlier_velocity.swap(velocity);
     if (added.damping)

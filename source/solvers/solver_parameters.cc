@@ -105,13 +105,11 @@ namespace perideal
                       time_step_safety,
                       "Part of the largest stable step that is taken, 0 < safety <= 1 [-]",
                       Double());
-    prm.add_parameter(
-      "Local step ratio",
-      local_step_ratio,
-      "How many times longer than the shortest step the longest is, that of larger cells: a "
-      "power of two, 1 to 64 [-]; loads and bonds are looked at after the longest; 1: all take "
-      "the same",
-      Integer(1, 64));
+    prm.add_parameter("Local step ratio",
+                      local_step_ratio,
+                      "How many times longer than the shortest step the longest is, that of larger cells: a "
+                      "power of two, 1 to 64 [-]; 1: all take the same",
+                      Integer(1, 64));
     prm.add_parameter(
       "Integrator",
       integrator,

@@ -7,13 +7,11 @@ namespace perideal
   template <int dim>
   SubSteps<dim>::SubSteps(BondForce<dim>                          &bonds,
                           const std::shared_ptr<const LocalSteps> &steps,
-                          ContactForce<dim>                       *contact,
                           const std::vector<double>               &mass,
                           const std::vector<std::uint8_t>         &is_held,
                           const double                             longest)
     : bonds(bonds)
     , steps(steps)
-    , contact(contact)
     , mass(mass)
     , is_held(is_held)
     , longest(longest)
@@ -28,9 +26,6 @@ namespace perideal
         bonds.initialize(*vector);
     bonds.initialize(place);
     bonds.initialize(whole_way);
-    if (contact)
-      for (LocalIndex i = 0; i < mass.size(); ++i)
-        all.push_back(i);
   }
 
   template <int dim>
@@ -61,12 +56,7 @@ namespace perideal
   template <int dim>
   void SubSteps<dim>::compute_parts(const unsigned int highest)
   {
-    // Contact is where bonds are not.
-    if (contact)
-      parts[0] = 0.;
     bonds.compute_parts(parts, place, highest);
-    if (contact)
-      contact->add(parts[0], bonds);
   }
 
   template <int dim>
@@ -92,10 +82,7 @@ namespace perideal
   double SubSteps<dim>::take_steps(NodalVector &force)
   {
     energy = 0;
-    // Softened bonds keep what they have; what they would soften by on the way is not for good.
-    bonds.judge_bonds(Judgement::on_trial);
     move(steps->n_levels() - 1, force, true, whole_way);
-    bonds.judge_bonds(Judgement::for_good);
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       force.local_element(k) = 2. * mass[k / dim] * whole_way.local_element(k) / (longest * longest);
     return energy;
@@ -111,16 +98,16 @@ namespace perideal
     constexpr double of_second = LocalSteps::omega / LocalSteps::nu;
     const double     step      = step_of(level);
     const bool       is_whole  = level == 0 || !steps->any_up_to(level - 1);
-    const auto      &nodes     = pulled(level);
+    const auto      &nodes     = steps->pulled(level);
     visit_components(nodes, [&](const std::size_t k) {
-      if (is_whole || !changes(k / dim, level - 1))
+      if (is_whole || steps->level_of_force(k / dim) == level)
         way.local_element(k) = way_of(force, k, step);
     });
     if (is_whole)
       return;
 
     const unsigned int             lower  = level - 1;
-    const std::vector<LocalIndex> &moving = steps->moving(lower), &changed = pulled(lower);
+    const std::vector<LocalIndex> &moving = steps->moving(lower), &changed = steps->pulled(lower);
     const double                   interval = step_of(lower);
     Level                         &own      = levels[level];
     visit_components(changed,
@@ -149,11 +136,7 @@ namespace perideal
   template <int dim>
   void SubSteps<dim>::settle(const NodalVector &displacement)
   {
-    bonds.judge_bonds(Judgement::on_trial);
     bonds.compute(whole_way, displacement);
-    bonds.judge_bonds(Judgement::for_good);
-    if (contact)
-      contact->add(whole_way, bonds);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(SubSteps)

@@ -77,8 +77,7 @@ namespace perideal
     /// The cell that halves make.
     Numbers join(const Cell &parent) const;
     /// Flags cells; returns how many of all ranks are to be halved. Collective.
-    GlobalIndex
-    flag(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels, const bool joins) const;
+    GlobalIndex flag(Mesh<dim> &mesh, const MeshNeed<dim> &need, const bool joins) const;
     /// Own cells that may not be halved, as they or larger cells beside them are kept. Collective.
     std::vector<bool> blocked_cells(const dealii::Triangulation<dim> &mesh) const;
 

@@ -25,11 +25,14 @@ namespace perideal
     /// Looks at a problem with nodes and, where it has one, at its force. Collective.
     MeshNeed(const Problem<dim> &problem, const double time);
 
-    /// Whether a cell lies within the reach of a place that needs small cells.
-    bool is_near(const Cell &cell) const { return is_in(within_reach, cell); }
+    /// Whether a cell lies where cells are to be halved so often at least: within the reach of a place that
+    /// needs small cells, or so near to it that no family meets three sizes of cells, which would make some
+    /// bonds stiff and explicit steps several times shorter.
+    /// @param halvings of the cell
+    bool needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const;
 
     /// Whether it lies so near that it is to be small now: within half of the reach.
-    bool is_urgent(const Cell &cell) const { return is_in(urgent, cell); }
+    bool is_urgent(const Cell &cell) const { return is_in(urgent, cell, 0.); }
 
     /// By owned node: whether bonds are far enough below their limits for larger cells.
     std::vector<bool> is_quiet;
@@ -37,11 +40,16 @@ namespace perideal
   private:
     using Boxes = dealii::RTree<dealii::BoundingBox<dim>>;
 
-    bool is_in(const Boxes &boxes, const Cell &cell) const;
+    /// @param margin around the boxes [m]
+    bool is_in(const Boxes &boxes, const Cell &cell, const double margin) const;
 
     SpaceTimeFunction<dim> where;
     double                 time;
-    Boxes                  within_reach, urgent;
+    unsigned int           levels;
+    /// How many cells of a size there are at least between larger and smaller ones: one more than the horizon
+    /// factor, as of Mesh/Refine layers.
+    double layers;
+    Boxes  within_reach, urgent;
   };
 } // namespace perideal
 

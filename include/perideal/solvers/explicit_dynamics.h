@@ -70,7 +70,7 @@ namespace perideal
     void set_contact(ContactForce<dim> *force) { added.contact = force; }
     void set_relative_damping(RelativeDamping<dim> *relative);
 
-    /// Lets small cells take shorter steps between two of these; to be called after set_contact().
+    /// Lets small cells take shorter steps between two of these; without contact, and where nothing breaks.
     void take_sub_steps(const std::shared_ptr<const LocalSteps> &steps);
 
     /// Moves prescribed values at faces, which the force reads, besides the held nodes: to where they are at
@@ -125,10 +125,7 @@ namespace perideal
     NodalVector displacement, velocity;
 
   private:
-    /// Half a step back from the initial velocity.
-    void start_half_step(const NodalVector &external);
-
-    /// Puts the effective force of sub-steps in the place of that of bonds and contact.
+    /// Puts the effective force of sub-steps in the place of that of the bonds.
     void take_steps_between(const NodalVector &external);
 
     /// Adds the work of supports at faces in the halves of a step before and after the present time, and

@@ -3,7 +3,6 @@
 #define perideal_solvers_sub_steps_h
 
 #include <perideal/operators/force/bond_force.h>
-#include <perideal/operators/force/contact_force.h>
 #include <perideal/operators/force/local_steps.h>
 
 #include <cstdint>
@@ -40,8 +39,11 @@ namespace perideal
    *
    *     m v(-).v(+)/2 + U - sum over the levels of sum_P 2 c m |w|^2/dt^2,  with w of the first step,
    *
-   * is conserved as leapfrog conserves m v(-).v(+)/2 + U. Loads are constant over Dt, contact is not; bonds
-   * are judged at the longest steps.
+   * is conserved as leapfrog conserves m v(-).v(+)/2 + U. Loads are
+   * constant over Dt.
+   *
+   * Bonds that fail, and nodes that touch, are not for it: both would be looked at once in Dt, and what they
+   * do to the energy of the way is not known.
    */
   template <int dim>
   class SubSteps
@@ -52,25 +54,24 @@ namespace perideal
     /// The arguments must outlive this object.
     SubSteps(BondForce<dim>                          &bonds,
              const std::shared_ptr<const LocalSteps> &steps,
-             ContactForce<dim>                       *contact,
              const std::vector<double>               &mass,
              const std::vector<std::uint8_t>         &is_held,
              const double                             longest);
 
-    /// Computes the force of bonds and contact on the owned nodes, and judges bonds. Collective.
+    /// Computes the force of the bonds on the owned nodes. Collective.
     void compute(NodalVector &force, const NodalVector &displacement);
 
     /// Turns all that acts on the nodes after compute() into the effective force. Collective.
     /// @return what the motion between takes from the energy, of this rank [J]
     double take_steps(NodalVector &force);
 
-    /// Brings bonds and contact back to the state of compute(), for who asks for their energies. Collective.
+    /// Brings the bonds back to the state of compute(), for who asks for their energy. Collective.
     void settle(const NodalVector &displacement);
 
   private:
     /// Finds the way from rest at the present place during a step of a level, of the nodes that the forces of
     /// this level change; of the highest one, of all.
-    /// @param at_start whether bonds have been judged there: the energy of the way counts
+    /// @param at_start whether that is where compute() was: the energy of the way counts
     void move(const unsigned int level, const NodalVector &force, const bool at_start, NodalVector &way);
 
     /// The way as long as the force is the same.
@@ -79,7 +80,7 @@ namespace perideal
       return 0.5 * step * step * force.local_element(k) / mass[k / dim];
     }
 
-    /// Bonds and contact at the present place, with the parts of the levels up to one.
+    /// The forces at the present place, those of the levels up to one.
     void   compute_parts(const unsigned int highest);
     double sum_of_parts(const std::size_t k, const unsigned int highest) const;
 
@@ -91,26 +92,13 @@ namespace perideal
 
     double step_of(const unsigned int level) const;
 
-    /// Owned nodes whose force changes where those of the levels up to one move: with contact, any.
-    const std::vector<LocalIndex> &pulled(const unsigned int level) const
-    {
-      return contact ? all : steps->pulled(level);
-    }
-    bool changes(const LocalIndex node, const unsigned int level) const
-    {
-      return contact || steps->level_of_force(node) <= level;
-    }
-
     BondForce<dim>                   &bonds;
     std::shared_ptr<const LocalSteps> steps;
-    ContactForce<dim>                *contact;
     const std::vector<double>        &mass;
     const std::vector<std::uint8_t>  &is_held;
     const double                      longest;
 
-    /// All owned nodes where there is contact.
-    std::vector<LocalIndex> all;
-    /// Of the bonds, by level; contact is in the lowest.
+    /// Of the force, by level.
     std::vector<NodalVector> parts;
 
     /// Work space of a level: the way of its first shorter step, the force there, the parts of the force

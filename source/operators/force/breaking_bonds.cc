@@ -111,8 +111,6 @@ namespace perideal
   template <int dim>
   void BreakingBonds<dim>::move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes)
   {
-    n_lost_before = this->lost.size();
-    softening.begin(critical_stretch);
     const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
     for (const LocalIndex i : nodes)
       for (int d = 0; d < dim; ++d)

@@ -140,22 +140,14 @@ namespace perideal
   {
     broken_now.clear();
     this->move_nodes(displacement);
-    if (this->can_break() && reweigh)
-      compute_and_reweigh(force);
-    else
-      with_failing([&](const auto failing) { compute_forces<failing.value>(force); });
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  template <typename Compute>
-  void FamilyForce<dim, n_sums, own_force_weights>::with_failing(const Compute &compute) const
-  {
     if (!this->can_break())
-      compute(std::integral_constant<Failing, Failing::not_at_all>());
+      compute_forces<Failing::not_at_all>(force);
+    else if (reweigh)
+      compute_and_reweigh(force);
     else if (softening.softens())
-      compute(std::integral_constant<Failing, Failing::gradually>());
+      compute_forces<Failing::gradually>(force);
     else
-      compute(std::integral_constant<Failing, Failing::at_once>());
+      compute_forces<Failing::at_once>(force);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -163,33 +155,30 @@ namespace perideal
                                                                   const NodalVector        &displacement,
                                                                   const unsigned int        highest)
   {
-    broken_now.clear();
     if (highest + 1 == local_steps->n_levels())
       this->move_nodes(displacement);
     else
       this->move_some(displacement, local_steps->moving(highest));
-    with_failing([&](const auto failing) {
-      // Families of higher levels miss bonds in their sums; their members have not moved.
-      if constexpr (n_sums > 0)
-        {
-          for (auto &values : sums)
-            clear(values, local_steps->pulled(highest), 0.);
-          sum_over_families<failing.value>({0, highest});
-          turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const auto &visit) {
-            for (const LocalIndex i : local_steps->families(highest))
-              visit(i);
-          });
-        }
-      for (unsigned int level = 0; level <= highest; ++level)
-        {
-          const std::vector<LocalIndex> &nodes = local_steps->pulled_alone(level);
-          clear(forces, nodes, NodeRecord{});
-          sum_forces<failing_of_forces<failing.value>>({level, level});
-          for (const LocalIndex i : nodes)
-            for (int d = 0; d < dim; ++d)
-              parts[level].local_element(dim * i + d) = forces[i].value[d];
-        }
-    });
+    // Families of higher levels miss bonds in their sums; their members have not moved.
+    if constexpr (n_sums > 0)
+      {
+        for (auto &values : sums)
+          clear(values, local_steps->pulled(highest), 0.);
+        sum_over_families<Failing::not_at_all>({0, highest});
+        turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const auto &visit) {
+          for (const LocalIndex i : local_steps->families(highest))
+            visit(i);
+        });
+      }
+    for (unsigned int level = 0; level <= highest; ++level)
+      {
+        const std::vector<LocalIndex> &nodes = local_steps->pulled_alone(level);
+        clear(forces, nodes, NodeRecord{});
+        sum_forces<Failing::not_at_all>({level, level});
+        for (const LocalIndex i : nodes)
+          for (int d = 0; d < dim; ++d)
+            parts[level].local_element(dim * i + d) = forces[i].value[d];
+      }
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
@@ -214,8 +203,10 @@ namespace perideal
         sum_over_families<failing>({});
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states);
       }
+    // The first pass has looked at the lengths.
+    constexpr bool has_failed = n_sums > 0 && failing == Failing::at_once;
     std::fill(forces.begin(), forces.end(), NodeRecord{});
-    sum_forces<failing_of_forces<failing>>({});
+    sum_forces<has_failed ? Failing::not_at_all : failing>({});
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = forces[i].value[d];

@@ -7,7 +7,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace perideal
 {
@@ -61,14 +63,40 @@ namespace perideal
       return result;
     }
 
+    /// A family without the rounding of coordinates: numbers with so many bits that equal families get the
+    /// same ones nearly always.
+    template <int dim>
+    FamilyView<dim> without_rounding(FamilyView<dim> family)
+    {
+      constexpr int n_bits = 36;
+      const auto    round  = [](const double value, const double scale) {
+        const double unit = std::ldexp(1., std::ilogb(scale) - n_bits);
+        return std::nearbyint(value / unit) * unit;
+      };
+      family.node_volume = round(family.node_volume, family.node_volume);
+      for (auto *values : {&family.volume, &family.bond_horizon})
+        for (double &value : *values)
+          value = value > 0 ? round(value, value) : value;
+      std::fill(family.length_square.begin(), family.length_square.end(), 0.);
+      for (auto &components : family.bond)
+        for (LocalIndex j = 0; j < family.size; ++j)
+          {
+            components[j] = round(components[j], family.horizon);
+            family.length_square[j] += components[j] * components[j];
+          }
+      family.horizon = round(family.horizon, family.horizon);
+      return family;
+    }
+
     /// As calibrate(), or what the memo knows of it.
     template <int dim>
-    CalibratedFamily recall(const FamilyView<dim>           &family,
+    CalibratedFamily recall(const FamilyView<dim>           &given,
                             LinearModel<dim>                &model,
                             const Calibration<dim>          &how,
                             const dealii::types::material_id material,
                             const bool                       is_one_of_many)
     {
+      const FamilyView<dim> family = without_rounding(given);
       if (how.memo == nullptr || model.depends_on_node())
         return calibrate(family, model, how, material, is_one_of_many);
       const auto key = CalibrationMemo::key_of(family, material, 2u * is_one_of_many + how.with_shares);

@@ -140,21 +140,3 @@ TEST(LocalSteps, LevelsReachOverAFamily)
   EXPECT_TRUE(body.steps->any_up_to(0));
   EXPECT_NEAR(body.steps->share_of_cell_steps(), (90 + 30 + 12.5) / 200., 1e-14);
 }
-
-/// With all levels, what breaks and what is left is as without levels.
-TEST(LocalSteps, BondsAreJudgedWithAllLevels)
-{
-  const auto mesh = test::make_box<2>({40, 5}, {1., 0.125}, 0.);
-  for (const auto &[model, form] : models)
-    {
-      SteppedBody<2> parts(*mesh, model, form), whole(*mesh, model, form);
-      for (auto *body : {&parts, &whole})
-        body->bonds->set_critical_stretch([](const LocalIndex, const LocalIndex) { return 0.1; });
-      NodalVector difference = parts.sum_of_parts(2);
-      difference -= whole.force();
-      EXPECT_GT(whole.bonds->n_broken_now(), 0u);
-      EXPECT_EQ(parts.bonds->n_broken_now(), whole.bonds->n_broken_now());
-      EXPECT_LE(difference.l2_norm(), 1e-13 * parts.parts[0].l2_norm());
-      EXPECT_NEAR(parts.bonds->strain_energy(), whole.bonds->strain_energy(), 1e-13);
-    }
-}

@@ -74,8 +74,8 @@ namespace perideal
     virtual void take_local_steps(const std::shared_ptr<const LocalSteps> &steps);
 
     /// As compute(), of the levels up to one, whose forces go apart; in their sum nothing is missing that
-    /// nodes of these levels change. With less than all levels, energies are not those of the body, and bonds
-    /// must not be judged for good. Collective.
+    /// nodes of these levels change. No bond fails. With less than all levels, sums and energies are not
+    /// those of the body. Collective.
     /// @param parts by level [N]; higher ones stay as they are
     virtual void compute_parts(std::vector<NodalVector> &parts,
                                const NodalVector        &displacement,

@@ -91,7 +91,7 @@ namespace perideal
     /// null
     void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
 
-    /// As move_nodes(), where owned nodes other than these, and what follows of theirs, are where they were.
+    /// As move_nodes(), where other owned nodes than these are where they were, and no bond fails.
     void move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes);
 
     /// Softens or breaks a bond of this stretch, which is beyond its limit; the caller has looked at its

@@ -117,10 +117,6 @@ namespace perideal
       at_once,
       gradually
     };
-    /// Of the pass over forces: where there are sums, the first pass has looked at the lengths.
-    template <Failing failing>
-    static constexpr Failing failing_of_forces =
-      n_sums > 0 && failing == Failing::at_once ? Failing::not_at_all : failing;
     /// Sums and forces of the bonds there are, after those too long have failed.
     template <Failing failing>
     void compute_forces(NodalVector &force);
@@ -155,9 +151,6 @@ namespace perideal
       const unsigned int level = local_steps->level_of_block(block);
       return level < levels.first || level > levels.last;
     }
-    /// Calls compute(failing) with what happens to bonds that are too long, as a constant.
-    template <typename Compute>
-    void with_failing(const Compute &compute) const;
     /// Makes values of some owned nodes and of all ghosts zero.
     template <typename Values, typename Value>
     void clear(Values &values, const std::vector<LocalIndex> &nodes, const Value &zero) const;
