@@ -169,8 +169,8 @@ namespace perideal
           {
             Problem<dim> problem(parameters, context, communicator);
             problem.run.go_on(earlier);
-            problem.body.mesh                   = std::move(mesh);
-            problem.discretisation.calibrations = calibrations;
+            problem.body.mesh            = std::move(mesh);
+            problem.failure.calibrations = calibrations;
             if (change.state && change.state->has_begun())
               time = change.state->time();
             table.add(problem.run, *problem.body.mesh, "t =", "time", time);

@@ -53,10 +53,12 @@ namespace perideal
                       reach,
                       "How far around such places cells are halved, in spacings of the smallest cells [-]",
                       dealii::Patterns::Double(0.));
-    prm.add_parameter("Interval",
-                      interval,
-                      "Steps of a motion [-] between two looks at the mesh; load steps end with one each",
-                      dealii::Patterns::Integer(1));
+    prm.add_parameter(
+      "Interval",
+      interval,
+      "Steps of a motion [-] between two looks at the mesh, in which a wave of the smallest cells "
+      "runs about as many of them: no more than half of Reach; load steps end with one each",
+      dealii::Patterns::Integer(1));
     prm.add_parameter("Refine where",
                       where,
                       "Cells with their centre where this formula in x, y, z [m] and t [s] is not zero are "

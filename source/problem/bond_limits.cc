@@ -75,7 +75,7 @@ namespace perideal
                               const DiscreteBody<dim> &discretisation,
                               const Families<dim>     &families,
                               const BondList          &bonds,
-                              const bool               with_shares)
+                              const Calibrating       &calibrating)
     : body(body)
     , families(families)
   {
@@ -102,8 +102,8 @@ namespace perideal
     };
     how.law         = SofteningLaw(body.parameters.material.softening);
     how.first_share = first_share;
-    how.with_shares = with_shares;
-    how.memo        = discretisation.calibrations.get();
+    how.with_shares = calibrating.with_shares;
+    how.memo        = calibrating.memo;
     calibrated = calibrate_stretches<dim>(families, bonds, *discretisation.model, solids_of_model(body), how);
   }
 

@@ -94,10 +94,10 @@ namespace perideal
         by_stress->set_strength(utilisation_of_strengths(body), can_both);
         return;
       }
-    const auto set_limits = [&body, &discretisation, can_both](const Families<dim> &of,
-                                                               BondForce<dim>      &bonds_of) {
+    const auto set_limits = [&body, &discretisation, can_both, memo = calibrations](
+                              const Families<dim> &of, BondForce<dim> &bonds_of) {
       const BondList       &bonds = bonds_of.bond_list();
-      const BondLimits<dim> limits(body, discretisation, of, bonds);
+      const BondLimits<dim> limits(body, discretisation, of, bonds, {false, memo.get()});
       bonds_of.set_critical_stretch(
         [&](const LocalIndex i, const LocalIndex j) {
           return can_both(i, j) ? limits(i, j, bonds.find(i, j)) : std::numeric_limits<double>::infinity();
@@ -136,7 +136,7 @@ namespace perideal
     const auto            whole    = discretisation.sample_of_whole_families();
     const Families<dim>  &families = *whole;
     const BondList        bonds(families);
-    const BondLimits<dim> limits(body, discretisation, families, bonds, true);
+    const BondLimits<dim> limits(body, discretisation, families, bonds, {true});
     Breaking              result;
     for (const auto id : body.mesh->material_ids)
       {

@@ -110,8 +110,8 @@ namespace perideal
   {
     const Timings::Scope scope(run.timings, "setup");
     // A zone that grows calibrates its bonds anew.
-    if (has_fracture_zone(parameters) && !discretisation.calibrations)
-      discretisation.calibrations = std::make_shared<CalibrationMemo>();
+    if (has_fracture_zone(parameters) && !failure.calibrations)
+      failure.calibrations = std::make_shared<CalibrationMemo>();
     failure.apply(body, discretisation, *force);
   }
 

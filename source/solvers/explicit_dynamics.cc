@@ -36,7 +36,8 @@ namespace perideal
   template <int dim>
   void ExplicitDynamics<dim>::take_sub_steps(const std::shared_ptr<const LocalSteps> &steps)
   {
-    sub_steps = std::make_unique<SubSteps<dim>>(bonds, steps, mass, held.nodes.mask(), scheme.time_step);
+    added.sub_steps =
+      std::make_unique<SubSteps<dim>>(bonds, steps, mass, held.nodes.mask(), scheme.time_step);
   }
 
   template <int dim>
@@ -47,7 +48,7 @@ namespace perideal
     };
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       work.force.local_element(k) += of_others(k);
-    own.between = sub_steps->take_steps(work.force);
+    own.between = added.sub_steps->take_steps(work.force);
     for (std::size_t k = 0; k < dim * mass.size(); ++k)
       work.force.local_element(k) -= of_others(k);
   }
@@ -87,15 +88,15 @@ namespace perideal
   template <int dim>
   void ExplicitDynamics<dim>::evaluate(const NodalVector &external)
   {
-    if (sub_steps)
-      sub_steps->compute(work.force, displacement);
+    if (added.sub_steps)
+      added.sub_steps->compute(work.force, displacement);
     else
       bonds.compute(work.force, displacement);
     breaks.now = bonds.n_broken_now();
     breaks.total += breaks.now;
     if (added.contact)
       added.contact->add(work.force, bonds);
-    if (sub_steps)
+    if (added.sub_steps)
       take_steps_between(external);
     if (n_steps == 0 && scheme.start == Start::velocity_verlet)
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
@@ -137,8 +138,8 @@ namespace perideal
       n_steps == 0 ? own.kinetic : own.next_external_work + 0.5 * scheme.time_step * work_before;
     if (n_steps == 0)
       {
-        if (sub_steps)
-          sub_steps->settle(displacement);
+        if (added.sub_steps)
+          added.sub_steps->settle(displacement);
         add_work(bonds.strain_energy() + breaks.energy);
       }
     own.damped += n_steps == 0 ? 0. : own.next_damped + 0.5 * scheme.time_step * damped_before;
@@ -184,8 +185,8 @@ namespace perideal
   {
     const MPI_Comm communicator = displacement.get_mpi_communicator();
     using dealii::Utilities::MPI::sum;
-    if (sub_steps)
-      sub_steps->settle(displacement);
+    if (added.sub_steps)
+      added.sub_steps->settle(displacement);
     EnergyBudget result;
     result.kinetic    = sum(own.kinetic, communicator);
     result.strain     = bonds.strain_energy();

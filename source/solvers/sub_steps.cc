@@ -11,6 +11,7 @@ namespace perideal
                           const std::vector<std::uint8_t>         &is_held,
                           const double                             longest)
     : bonds(bonds)
+    , by_level(dynamic_cast<LevelledForce &>(bonds))
     , steps(steps)
     , mass(mass)
     , is_held(is_held)
@@ -18,7 +19,7 @@ namespace perideal
     , parts(steps->n_levels())
     , levels(steps->n_levels())
   {
-    bonds.take_local_steps(steps);
+    by_level.take_local_steps(steps);
     for (NodalVector &part : parts)
       bonds.initialize(part);
     for (Level &level : levels)
@@ -56,7 +57,7 @@ namespace perideal
   template <int dim>
   void SubSteps<dim>::compute_parts(const unsigned int highest)
   {
-    bonds.compute_parts(parts, place, highest);
+    by_level.compute_parts(parts, place, highest);
   }
 
   template <int dim>

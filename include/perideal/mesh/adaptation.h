@@ -29,7 +29,7 @@ namespace perideal
     /// How far around such a place cells are halved, in smallest spacings of the mesh [-].
     double reach = 12.;
     /// Steps of a motion between two looks.
-    unsigned int interval = 20;
+    unsigned int interval = 5;
     /// Where cells are halved besides, not zero there: a formula in x, y, z, t; empty: nowhere.
     std::string where;
 

@@ -29,13 +29,19 @@ namespace perideal
   class BondLimits
   {
   public:
+    /// How bonds are calibrated besides: whether shares() is asked for; where families are looked up, may be
+    /// null.
+    struct Calibrating
+    {
+      bool             with_shares = false;
+      CalibrationMemo *memo        = nullptr;
+    };
     /// Collective.
-    /// @param with_shares whether shares() is asked for
     BondLimits(const Body<dim>         &body,
                const DiscreteBody<dim> &discretisation,
                const Families<dim>     &families,
                const BondList          &bonds,
-               const bool               with_shares = false);
+               const Calibrating       &calibrating);
 
     double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
 

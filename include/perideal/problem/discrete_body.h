@@ -6,7 +6,6 @@
 #include <perideal/neighbourhood/connected_parts.h>
 #include <perideal/operators/linear/bond_operator.h>
 #include <perideal/operators/linear/tangent_operator.h>
-#include <perideal/operators/weights/calibration_memo.h>
 #include <perideal/operators/weights/consistent_bonds.h>
 #include <perideal/operators/weights/correspondence_rows.h>
 #include <perideal/operators/weights/family_weights.h>
@@ -96,8 +95,6 @@ namespace perideal
     std::shared_ptr<CorrespondenceRows<dim>> correspondence;
     /// C of whole families by their quadrature [Pa], where the scene needs it.
     std::optional<dealii::SymmetricTensor<4, dim>> family_stiffness;
-    /// What families were calibrated to, where a scene calibrates more than once; else null.
-    std::shared_ptr<CalibrationMemo> calibrations;
 
   private:
     void weigh_nodes(const Body<dim> &body, const BondPredicate<dim> &is_cut);

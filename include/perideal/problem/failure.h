@@ -6,6 +6,7 @@
 #include <perideal/materials/separation.h>
 #include <perideal/neighbourhood/precrack.h>
 #include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/weights/calibration_memo.h>
 #include <perideal/problem/discrete_body.h>
 
 #include <map>
@@ -45,6 +46,8 @@ namespace perideal
     /// Cuts what precracks cross and gives bonds their limits. Collective.
     void apply(const Body<dim> &body, const DiscreteBody<dim> &discretisation, BondForce<dim> &force);
 
+    /// What families were calibrated to, where a scene calibrates more than once; else null.
+    std::shared_ptr<CalibrationMemo>  calibrations;
     std::vector<Precrack<dim>>        precracks;
     std::unique_ptr<NoFailZones<dim>> no_fail_zones;
     /// Nodes of all ranks in these zones, and bonds that precracks cut.

@@ -154,11 +154,13 @@ namespace perideal
     };
     const Scheme scheme;
 
-    /// Forces that others add; null without.
+    /// What changes the force of the bonds: others that add theirs, and shorter steps of small cells; null
+    /// without.
     struct Added
     {
-      ContactForce<dim>    *contact = nullptr;
-      RelativeDamping<dim> *damping = nullptr;
+      ContactForce<dim>             *contact   = nullptr;
+      RelativeDamping<dim>          *damping   = nullptr;
+      std::unique_ptr<SubSteps<dim>> sub_steps = nullptr;
     };
     Added added;
 
@@ -169,8 +171,6 @@ namespace perideal
     };
     Work          work;
     std::uint64_t n_steps = 0;
-    /// Null where all nodes take the same step.
-    std::unique_ptr<SubSteps<dim>> sub_steps;
 
     /// Of all ranks: bonds broken, now and so far, the energy that they set free, and that switched.
     struct Breaks

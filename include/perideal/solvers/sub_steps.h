@@ -3,7 +3,7 @@
 #define perideal_solvers_sub_steps_h
 
 #include <perideal/operators/force/bond_force.h>
-#include <perideal/operators/force/local_steps.h>
+#include <perideal/operators/force/levelled_force.h>
 
 #include <cstdint>
 #include <memory>
@@ -93,6 +93,7 @@ namespace perideal
     double step_of(const unsigned int level) const;
 
     BondForce<dim>                   &bonds;
+    LevelledForce                    &by_level;
     std::shared_ptr<const LocalSteps> steps;
     const std::vector<double>        &mass;
     const std::vector<std::uint8_t>  &is_held;

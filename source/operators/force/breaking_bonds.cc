@@ -43,18 +43,6 @@ namespace perideal
   }
 
   template <int dim>
-  void BondForce<dim>::take_local_steps(const std::shared_ptr<const LocalSteps> &)
-  {
-    AssertThrow(false, dealii::ExcNotImplemented());
-  }
-
-  template <int dim>
-  void BondForce<dim>::compute_parts(std::vector<NodalVector> &, const NodalVector &, const unsigned int)
-  {
-    AssertThrow(false, dealii::ExcNotImplemented());
-  }
-
-  template <int dim>
   BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
                                     const BondList                             &bonds,
                                     const bool                                  has_sums)
@@ -76,54 +64,48 @@ namespace perideal
 
   template <int dim>
   void BreakingBonds<dim>::move_nodes(const NodalVector                 &displacement,
-                                      dealii::AlignedVector<NodeRecord> *records)
+                                      dealii::AlignedVector<NodeRecord> *records,
+                                      const std::vector<LocalIndex>     *some)
   {
     n_lost_before = this->lost.size();
     softening.begin(critical_stretch);
+    const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
+    const auto       visit_nodes = [&](const auto &visit) {
+      if (some != nullptr)
+        std::for_each(some->begin(), some->end(), visit);
+      else
+        for (LocalIndex i = 0; i < n_owned; ++i)
+          visit(i);
+      for (LocalIndex i = n_owned; i < n_local; ++i)
+        visit(i);
+    };
     const NodalVector *source = &displacement;
-    if (families->n_local() > families->n_owned())
+    if (n_local > n_owned)
       {
-        std::copy(displacement.begin(), displacement.end(), ghosted.begin());
+        visit_nodes([&](const LocalIndex i) {
+          for (int d = 0; d < dim && i < n_owned; ++d)
+            ghosted.local_element(dim * i + d) = displacement.local_element(dim * i + d);
+        });
         ghosted.update_ghost_values();
         source = &ghosted;
       }
-    for (LocalIndex i = 0; i < families->n_local(); ++i)
+    visit_nodes([&](const LocalIndex i) {
       for (int d = 0; d < dim; ++d)
         position[i].value[d] = families->position[i][d] + source->local_element(dim * i + d);
-    if (records != nullptr)
-      for (LocalIndex i = 0; i < families->n_local(); ++i)
+      if (records != nullptr)
         for (int d = 0; d < dim; ++d)
           (*records)[i].value[d] = source->local_element(dim * i + d);
-    regions.update([&](const LocalIndex i) { return has_moved(i); });
-    ghosted.zero_out_ghost_values();
-  }
-
-  template <int dim>
-  bool BreakingBonds<dim>::has_moved(const LocalIndex i) const
-  {
+    });
     // A displacement that rounding takes from the position has moved nothing.
-    for (int d = 0; d < dim; ++d)
-      if (position[i].value[d] != families->position[i][d])
-        return true;
-    return false;
-  }
-
-  template <int dim>
-  void BreakingBonds<dim>::move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes)
-  {
-    const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
-    for (const LocalIndex i : nodes)
-      for (int d = 0; d < dim; ++d)
-        {
-          ghosted.local_element(dim * i + d) = displacement.local_element(dim * i + d);
-          position[i].value[d] = families->position[i][d] + displacement.local_element(dim * i + d);
-        }
-    if (n_local > n_owned)
-      ghosted.update_ghost_values();
-    for (LocalIndex i = n_owned; i < n_local; ++i)
-      for (int d = 0; d < dim; ++d)
-        position[i].value[d] = families->position[i][d] + ghosted.local_element(dim * i + d);
-    regions.update([&](const LocalIndex i) { return has_moved(i); }, nodes);
+    regions.update(
+      [&](const LocalIndex i) {
+        for (int d = 0; d < dim; ++d)
+          if (position[i].value[d] != families->position[i][d])
+            return true;
+        return false;
+      },
+      visit_nodes,
+      some == nullptr);
     ghosted.zero_out_ghost_values();
   }
 

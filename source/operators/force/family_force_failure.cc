@@ -34,7 +34,7 @@ namespace perideal
                                                                 const BondIndex  first_slot,
                                                                 const Lanes     &excess)
   {
-    for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+    for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
       {
         if (!(excess[lane] > 0))
           continue;

@@ -8,6 +8,19 @@
 
 namespace perideal
 {
+  namespace
+  {
+    /// Makes values of some owned nodes and of all ghosts zero.
+    template <typename Values, typename Value>
+    void
+    clear(Values &values, const std::vector<LocalIndex> &nodes, const LocalIndex n_owned, const Value &zero)
+    {
+      for (const LocalIndex i : nodes)
+        values[i] = zero;
+      std::fill(values.begin() + n_owned, values.end(), zero);
+    }
+  } // namespace
+
   template <int dim, unsigned int n_sums, bool own_force_weights>
   template <typename FamilyForce<dim, n_sums, own_force_weights>::Failing failing>
   void FamilyForce<dim, n_sums, own_force_weights>::sum_over_families(const Levels levels)
@@ -140,12 +153,13 @@ namespace perideal
   {
     broken_now.clear();
     this->move_nodes(displacement);
-    if (!this->can_break())
+    // What softened carries its share, judged or not.
+    if (softening.softens())
+      compute_forces<Failing::gradually>(force);
+    else if (!this->can_break())
       compute_forces<Failing::not_at_all>(force);
     else if (reweigh)
       compute_and_reweigh(force);
-    else if (softening.softens())
-      compute_forces<Failing::gradually>(force);
     else
       compute_forces<Failing::at_once>(force);
   }
@@ -155,15 +169,13 @@ namespace perideal
                                                                   const NodalVector        &displacement,
                                                                   const unsigned int        highest)
   {
-    if (highest + 1 == local_steps->n_levels())
-      this->move_nodes(displacement);
-    else
-      this->move_some(displacement, local_steps->moving(highest));
+    const bool is_whole = highest + 1 == local_steps->n_levels();
+    this->move_nodes(displacement, nullptr, is_whole ? nullptr : &local_steps->moving(highest));
     // Families of higher levels miss bonds in their sums; their members have not moved.
     if constexpr (n_sums > 0)
       {
         for (auto &values : sums)
-          clear(values, local_steps->pulled(highest), 0.);
+          clear(values, local_steps->pulled(highest), families->n_owned(), 0.);
         sum_over_families<Failing::not_at_all>({0, highest});
         turn_sums_into_states<n_sums>(map, sums, state, ghosted_states, [&](const auto &visit) {
           for (const LocalIndex i : local_steps->families(highest))
@@ -173,23 +185,12 @@ namespace perideal
     for (unsigned int level = 0; level <= highest; ++level)
       {
         const std::vector<LocalIndex> &nodes = local_steps->pulled_alone(level);
-        clear(forces, nodes, NodeRecord{});
+        clear(forces, nodes, families->n_owned(), NodeRecord{});
         sum_forces<Failing::not_at_all>({level, level});
         for (const LocalIndex i : nodes)
           for (int d = 0; d < dim; ++d)
             parts[level].local_element(dim * i + d) = forces[i].value[d];
       }
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
-  template <typename Values, typename Value>
-  void FamilyForce<dim, n_sums, own_force_weights>::clear(Values                        &values,
-                                                          const std::vector<LocalIndex> &nodes,
-                                                          const Value                   &zero) const
-  {
-    for (const LocalIndex i : nodes)
-      values[i] = zero;
-    std::fill(values.begin() + families->n_owned(), values.end(), zero);
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

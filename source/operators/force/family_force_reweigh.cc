@@ -43,28 +43,25 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  bool FamilyForce<dim, n_sums, own_force_weights>::any_too_long() const
-  {
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        {
-          const LocalIndex j      = bonds.neighbour[slot];
-          double           square = 0;
-          for (int d = 0; d < dim; ++d)
-            {
-              const double along = position[j].value[d] - position[i].value[d];
-              square += along * along;
-            }
-          if (std::sqrt(square) - rest_length[slot] > critical_stretch[slot] * rest_length[slot])
-            return true;
-        }
-    return false;
-  }
-
-  template <int dim, unsigned int n_sums, bool own_force_weights>
   void FamilyForce<dim, n_sums, own_force_weights>::compute_and_reweigh(NodalVector &force)
   {
     compute_forces<Failing::not_at_all>(force);
+    const auto any_too_long = [&] {
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          {
+            const LocalIndex j      = bonds.neighbour[slot];
+            double           square = 0;
+            for (int d = 0; d < dim; ++d)
+              {
+                const double along = position[j].value[d] - position[i].value[d];
+                square += along * along;
+              }
+            if (std::sqrt(square) - rest_length[slot] > critical_stretch[slot] * rest_length[slot])
+              return true;
+          }
+      return false;
+    };
     const unsigned int breaks = any_too_long();
     if (dealii::Utilities::MPI::max(breaks, families->communicator) == 0)
       return;

@@ -68,7 +68,6 @@ namespace perideal
 
   void RestRegions::spread()
   {
-    has_spread = true;
     for (LocalIndex block = 0; block < n_row_blocks; ++block)
       if (!in_sums[block])
         in_sums[block] = moved[block] || std::any_of(neighbours.blocks[block].begin(),

@@ -48,7 +48,7 @@ namespace perideal
   template <int dim>
   void TensorForce<dim>::break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin)
   {
-    for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+    for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
       if (margin[lane] < 0)
         {
           const BondIndex slot  = first_slot + lane;
@@ -157,7 +157,8 @@ namespace perideal
   {
     broken_now.clear();
     this->move_nodes(displacement, &displacements);
-    if (this->can_break())
+    // What softened carries its share, judged or not.
+    if (this->can_break() || softening.softens())
       sum_forces<true>();
     else
       sum_forces<false>();

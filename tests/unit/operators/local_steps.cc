@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
 #include <perideal/operators/force/bond_force.h>
-#include <perideal/operators/force/local_steps.h>
+#include <perideal/operators/force/levelled_force.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -40,11 +40,13 @@ namespace
               0.1 * x[d] + 0.05 * std::sin(3. * x[(d + 1) % dim]) + 0.01 * test::scatter(x, d);
         }
       steps = std::make_shared<const LocalSteps>(*body.families, bonds->bond_list(), own_level, 3);
-      bonds->take_local_steps(steps);
+      by_level().take_local_steps(steps);
       parts.resize(3);
       for (NodalVector &part : parts)
         bonds->initialize(part);
     }
+
+    LevelledForce &by_level() { return dynamic_cast<LevelledForce &>(*bonds); }
 
     NodalVector force()
     {
@@ -55,7 +57,7 @@ namespace
 
     NodalVector sum_of_parts(const unsigned int highest)
     {
-      bonds->compute_parts(parts, displacement, highest);
+      by_level().compute_parts(parts, displacement, highest);
       NodalVector result(parts[0]);
       for (unsigned int level = 1; level <= highest; ++level)
         result += parts[level];

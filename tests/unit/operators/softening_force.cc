@@ -104,6 +104,13 @@ namespace
     softening.bonds->compute(softening.force, motion);
     EXPECT_EQ(softening.bonds->n_broken_now(), 0u);
     EXPECT_NEAR(softening.bonds->released_energy(velocity, dt), 0., 1e-5 * std::abs(lost));
+
+    // What softened stays so where bonds are not judged.
+    NodalVector as_it_is(motion);
+    softening.bonds->judge_bonds(Judgement::none);
+    softening.bonds->compute(as_it_is, motion);
+    as_it_is -= softening.force;
+    EXPECT_LE(as_it_is.linfty_norm(), 1e-14 * whole.force.linfty_norm());
   }
 
   /// Bonds that never break, as those of zones without failure, carry all of their force however far they

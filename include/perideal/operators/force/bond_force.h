@@ -16,7 +16,6 @@
 namespace perideal
 {
   class LastingState;
-  class LocalSteps;
 
   /**
    * Computes the force of the bonds in the deformed body, geometrically nonlinear: in the
@@ -68,18 +67,6 @@ namespace perideal
     /// Force on the owned nodes [N]. Collective.
     /// @param displacement of owned nodes [m]
     virtual void compute(NodalVector &force, const NodalVector &displacement) = 0;
-
-    /// From now on compute_parts() splits the force by the levels of local steps.
-    /// @throws dealii::ExcNotImplemented of forces that cannot do so
-    virtual void take_local_steps(const std::shared_ptr<const LocalSteps> &steps);
-
-    /// As compute(), of the levels up to one, whose forces go apart; in their sum nothing is missing that
-    /// nodes of these levels change. No bond fails. With less than all levels, sums and energies are not
-    /// those of the body. Collective.
-    /// @param parts by level [N]; higher ones stay as they are
-    virtual void compute_parts(std::vector<NodalVector> &parts,
-                               const NodalVector        &displacement,
-                               const unsigned int        highest);
 
     /// Forces that supports exert on the body at prescribed face values at the last compute() [N], by entry
     /// of FaceValues; none where the force carries none.
@@ -164,8 +151,6 @@ namespace perideal
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     std::vector<LostBond>                                      lost;
     SofteningBonds                                             softening;
-    /// Null where all nodes take the same step.
-    std::shared_ptr<const LocalSteps> local_steps;
   };
 
   /// Creates the force of weighed bonds; it keeps its own copy of their weights.

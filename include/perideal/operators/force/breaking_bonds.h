@@ -88,11 +88,10 @@ namespace perideal
 
     /// Takes the displacement; from here on bonds break now. Collective.
     /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
-    /// null
-    void move_nodes(const NodalVector &displacement, dealii::AlignedVector<NodeRecord> *records = nullptr);
-
-    /// As move_nodes(), where other owned nodes than these are where they were, and no bond fails.
-    void move_some(const NodalVector &displacement, const std::vector<LocalIndex> &nodes);
+    /// null @param some owned nodes beyond which none has moved since the last call; null: any may
+    void move_nodes(const NodalVector                 &displacement,
+                    dealii::AlignedVector<NodeRecord> *records = nullptr,
+                    const std::vector<LocalIndex>     *some    = nullptr);
 
     /// Softens or breaks a bond of this stretch, which is beyond its limit; the caller has looked at its
     /// weights.
@@ -115,8 +114,6 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
-    bool has_moved(const LocalIndex i) const;
-
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
 

@@ -4,7 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/operators/force/breaking_bonds.h>
-#include <perideal/operators/force/local_steps.h>
+#include <perideal/operators/force/levelled_force.h>
 
 #include <array>
 #include <limits>
@@ -31,7 +31,7 @@ namespace perideal
    * precision.
    */
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  class FamilyForce : public BreakingBonds<dim>
+  class FamilyForce : public BreakingBonds<dim>, public LevelledForce
   {
   public:
     using Weights = FamilyWeights<dim, n_sums, own_force_weights>;
@@ -42,7 +42,6 @@ namespace perideal
                                   const typename BondForce<dim>::Reweigh        &reweigh) override;
     void   take_weights(const BondWeights<dim> &scaled, const std::vector<double> &share) override;
     void   compute(NodalVector &force, const NodalVector &displacement) override;
-    void   take_local_steps(const std::shared_ptr<const LocalSteps> &steps) override { local_steps = steps; }
     void   compute_parts(std::vector<NodalVector> &parts,
                          const NodalVector        &displacement,
                          const unsigned int        highest) override;
@@ -94,7 +93,6 @@ namespace perideal
     using BreakingBonds<dim>::position;
     using BreakingBonds<dim>::forces;
     using BreakingBonds<dim>::softening;
-    using BreakingBonds<dim>::local_steps;
 
     bool carries_force(const BondIndex slot) const override;
     void clear_weights(const BondIndex slot) override;
@@ -122,38 +120,15 @@ namespace perideal
     void compute_forces(NodalVector &force);
     /// As compute_forces<at_once>(), with families weighed anew where bonds break.
     void compute_and_reweigh(NodalVector &force);
-    bool any_too_long() const;
     /// Weighs the families of the owned ends of bonds anew.
     /// @param first of the lost bonds
     void reweigh_ends(const std::size_t first);
 
-    /// Of local steps, those whose blocks a pass goes over; without them, all.
-    struct Levels
-    {
-      unsigned int first = 0, last = std::numeric_limits<unsigned int>::max();
-    };
     /// The passes over the bonds, which add to sums and forces; lengths are checked in the first.
     template <Failing failing>
     void sum_over_families(const Levels levels);
     template <Failing failing>
     void sum_forces(const Levels levels);
-    /// Whether a row is the first of a block that a pass has nothing to do in.
-    template <typename IsAwake>
-    bool skips(const LocalIndex i, const Levels levels, const IsAwake &is_awake) const
-    {
-      if (i % RestRegions::block_size != 0)
-        return false;
-      const LocalIndex block = i / RestRegions::block_size;
-      if (!is_awake(block))
-        return true;
-      if (!local_steps)
-        return false;
-      const unsigned int level = local_steps->level_of_block(block);
-      return level < levels.first || level > levels.last;
-    }
-    /// Makes values of some owned nodes and of all ghosts zero.
-    template <typename Values, typename Value>
-    void clear(Values &values, const std::vector<LocalIndex> &nodes, const Value &zero) const;
 
     /// Breaks or softens those of a group of bonds that are too long.
     /// @param excess of their lengths over the largest ones [m]

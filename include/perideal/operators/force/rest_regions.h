@@ -30,13 +30,10 @@ namespace perideal
     RestRegions(const Families<dim> &families, const BondList &bonds, const bool through_states);
 
     /// Looks for motion in the blocks that were at rest. Collective.
-    /// @param has_moved of a local node
-    template <typename HasMoved>
-    void update(const HasMoved &has_moved);
-
-    /// As update(), where no others than some owned nodes and the ghosts may have begun to move. Collective.
-    template <typename HasMoved>
-    void update(const HasMoved &has_moved, const std::vector<LocalIndex> &nodes);
+    /// @param has_moved of a local node @param visit_nodes calls its argument with those that may have begun
+    /// to move @param is_whole whether these are all: a step of its own, which counts
+    template <typename HasMoved, typename VisitNodes>
+    void update(const HasMoved &has_moved, const VisitNodes &visit_nodes, const bool is_whole);
 
     /// From now on computes what nodes that count and their neighbours need, whatever moves. Collective.
     /// @param counts of a local node
@@ -62,16 +59,13 @@ namespace perideal
 
   private:
     LocalIndex block_of(const LocalIndex node) const;
-    /// Looks for motion that begins, and wakes what it reaches. Collective.
-    template <typename HasMoved, typename Nodes>
-    void wake(const HasMoved &has_moved, const Nodes &visit_nodes);
-    void spread();
-    void look_for_sleepers();
+    void       spread();
+    void       look_for_sleepers();
 
     LocalIndex n_owned, n_local, n_row_blocks;
     bool       through_states;
     MPI_Comm   communicator;
-    bool       all_awake = false, has_spread = false;
+    bool       all_awake = false;
 
     /// Slots of all updates so far.
     struct Counts
@@ -93,47 +87,25 @@ namespace perideal
     std::vector<BondIndex> slots;
   };
 
-  template <typename HasMoved>
-  void RestRegions::update(const HasMoved &has_moved)
+  template <typename HasMoved, typename VisitNodes>
+  void RestRegions::update(const HasMoved &has_moved, const VisitNodes &visit_nodes, const bool is_whole)
   {
-    double awake = 0, all = 0;
-    wake(has_moved, [&](const auto &look) {
-      for (LocalIndex i = 0; i < n_local; ++i)
-        look(i);
-    });
-    for (LocalIndex block = 0; block < n_row_blocks; ++block)
+    if (!all_awake)
       {
-        all += slots[block];
-        awake += in_forces[block] ? slots[block] : 0;
+        bool begins = is_whole;
+        visit_nodes([&](const LocalIndex i) {
+          if (!moved[block_of(i)] && has_moved(i))
+            moved[block_of(i)] = begins = true;
+        });
+        if (begins)
+          spread();
+        look_for_sleepers();
       }
-    computed.all += all;
-    computed.awake += awake;
-  }
-
-  template <typename HasMoved>
-  void RestRegions::update(const HasMoved &has_moved, const std::vector<LocalIndex> &nodes)
-  {
-    wake(has_moved, [&](const auto &look) {
-      for (const LocalIndex i : nodes)
-        look(i);
-      for (LocalIndex i = n_owned; i < n_local; ++i)
-        look(i);
-    });
-  }
-
-  template <typename HasMoved, typename Nodes>
-  void RestRegions::wake(const HasMoved &has_moved, const Nodes &visit_nodes)
-  {
-    if (all_awake)
-      return;
-    bool begins = false;
-    visit_nodes([&](const LocalIndex i) {
-      if (!moved[block_of(i)] && has_moved(i))
-        moved[block_of(i)] = begins = true;
-    });
-    if (begins || !has_spread)
-      spread();
-    look_for_sleepers();
+    for (LocalIndex block = 0; block < n_row_blocks && is_whole; ++block)
+      {
+        computed.all += slots[block];
+        computed.awake += in_forces[block] ? slots[block] : 0;
+      }
   }
 } // namespace perideal
 
