@@ -112,6 +112,11 @@ namespace perideal
              !model.recomputes();
     }
 
+    bool has_local_steps(const Scene &scene)
+    {
+      return scene.solver.is_dynamic() && scene.solver.local_step_ratio > 1;
+    }
+
     Rule of_dynamics(const std::string &parameter, const Rule::Breaches &breaches)
     {
       return refuse_each(parameter,
@@ -193,21 +198,21 @@ namespace perideal
         "Solver/Local step ratio",
         "Solver/Local step ratio > 1, with Material/Form = consistent, Model = correspondence | tensor "
         "involved or Multipliers = recomputed",
-        [](const Scene &s) { return s.solver.local_step_ratio > 1 && !has_families_of_bonds(s.model); },
+        [](const Scene &s) { return has_local_steps(s) && !has_families_of_bonds(s.model); },
         "steps are those of families of bonds, which this model or form has not, or weighs anew",
         "1",
         "set Material/Form = energy"),
       refuse(
         "Solver/Local step ratio",
         "Solver/Local step ratio > 1, with bonds that break or contact",
-        [](const Scene &s) { return s.solver.local_step_ratio > 1 && (can_break(s) || has_contact(s)); },
+        [](const Scene &s) { return has_local_steps(s) && (can_break(s) || has_contact(s)); },
         "bonds and contact would be looked at after the longest steps only",
         "1 where bonds break or nodes touch",
         "without a fracture energy, a critical stretch or a criterion: set Contact/Enabled = false"),
       refuse(
         "Solver/Local step ratio",
         "Solver/Local step ratio > 1, with Solver/Relative damping > 0",
-        [](const Scene &s) { return s.solver.local_step_ratio > 1 && s.solver.relative_damping > 0; },
+        [](const Scene &s) { return has_local_steps(s) && s.solver.relative_damping > 0; },
         "damping against the family acts in every step",
         "1",
         "set Solver/Damping"),
