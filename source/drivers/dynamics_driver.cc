@@ -118,7 +118,8 @@ namespace perideal
       std::size_t memory_consumption() const override
       {
         return Driver<dim>::memory_consumption() +
-               (forces.contact ? forces.contact->memory_consumption() : 0);
+               (forces.contact ? forces.contact->memory_consumption() : 0) +
+               (steps.local ? steps.local->memory_consumption() : 0);
       }
 
       std::string closing_lines() const override { return forces.describe(recorders->summary()); }

@@ -94,6 +94,7 @@ namespace perideal
     virtual double damping() const { return problem.parameters.solver.damping; }
 
     /// Returns the largest stable step of explicit dynamics [s]. Collective.
+    /// @param moves by owned node: the others are held; empty: all move
     double largest_stable_step(const std::vector<bool> &moves = {}) const;
 
     /// Writes a checkpoint of all that lasts. Collective.
