@@ -2,6 +2,7 @@
 #include <perideal/application/read_scene.h>
 #include <perideal/application/rules.h>
 #include <perideal/base/registry.h>
+#include <perideal/mesh/local_refinement.h>
 #include <perideal/parameters/declarations.h>
 #include <perideal/parameters/point_text.h>
 #include <perideal/problem/output_fields.h>
@@ -214,6 +215,8 @@ namespace perideal
     if (const double own = scene.model.form_traits().defaults.horizon_factor;
         own > 0 && !has_fracture_zone(scene))
       scene.nodes.horizon_factor = own;
+    if (scene.mesh.refine_layers == 0)
+      scene.mesh.refine_layers = layers_between_sizes(scene.nodes.horizon_factor);
     // The consistent form leaves the choice to the mesh, unless it has families besides.
     if (scene.nodes.horizon_shape == HorizonShape::automatic &&
         (!scene.model.is_consistent() || has_fracture_zone(scene)))

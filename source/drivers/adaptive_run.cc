@@ -171,6 +171,7 @@ namespace perideal
             problem.run.go_on(earlier);
             problem.body.mesh            = std::move(mesh);
             problem.failure.calibrations = calibrations;
+            calibrations->forget_unused();
             if (change.state && change.state->has_begun())
               time = change.state->time();
             table.add(problem.run, *problem.body.mesh, "t =", "time", time);

@@ -4,7 +4,9 @@
 #include <perideal/materials/family_energy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace perideal
 {
@@ -26,46 +28,48 @@ namespace perideal
   double BulkStrength<dim>::largest_strain(const std::vector<double> &squares, const BondFailing &how) const
   {
     // Strains are looked at in equal steps of their logarithm, in units of the first stretch: before the
-    // first bond softens, and to where all do that are not nearly across the pull.
+    // first bond softens, and to where all do that are not nearly across the pull; and behind none.
     constexpr unsigned int n_steps = 40;
     constexpr double       lowest = 0.95, highest = 20.;
 
-    double                              mean = 0;
-    std::vector<dealii::Tensor<1, dim>> pull(family.size), bonds(family.size);
-    for (LocalIndex j = 0; j < family.size; ++j)
-      for (int d = 0; d < dim; ++d)
-        bonds[j][d] = family.bond[d][j];
+    std::array<double, n_steps + 2> strains = {};
+    for (unsigned int step = 0; step <= n_steps; ++step)
+      strains[1 + step] =
+        how.first * lowest * std::pow(highest / lowest, static_cast<double>(step) / n_steps);
+    double mean = 0;
     for (const auto &normal : normals)
       {
-        for (LocalIndex j = 0; j < family.size; ++j)
-          pull[j] = (bonds[j] * normal) * normal;
-        const auto eps_of = [&](const LocalIndex j) {
-          return pull[j] * bonds[j] - lateral * (family.length_square[j] - pull[j] * bonds[j]);
-        };
         // Four times the stress at a unit strain: the energies of both strains together, and apart.
-        const auto stress = [&](const auto &share) {
-          FamilyEnergy<dim> sum(coefficients, shape), difference(coefficients, shape);
-          for (LocalIndex j = 0; j < family.size; ++j)
-            {
-              const double                 left   = share(j);
-              const dealii::Tensor<1, dim> across = lateral * (bonds[j] - pull[j]);
-              sum.add(j, left, (2. * pull[j] - across) * bonds[j], 2. * pull[j] - across);
-              difference.add(j, left, across * bonds[j], across);
-            }
-          return sum.twice() - difference.twice();
+        std::vector<FamilyEnergy<dim>> sum(strains.size(), {coefficients, shape}), difference(sum);
+        for (LocalIndex j = 0; j < family.size; ++j)
+          {
+            dealii::Tensor<1, dim> bond;
+            for (int d = 0; d < dim; ++d)
+              bond[d] = family.bond[d][j];
+            const dealii::Tensor<1, dim> along = (bond * normal) * normal, across = lateral * (bond - along);
+            // Along a bond, over the strain.
+            const double stretch = (along - across) * bond / family.length_square[j],
+                         square  = how.energy * squares[j];
+            const bool                           is_stable = how.law.is_stable(how.first, square);
+            std::optional<SofteningLaw::Opening> opening;
+            if (is_stable)
+              opening.emplace(how.law, how.first, square);
+            for (unsigned int step = 0; step < strains.size(); ++step)
+              {
+                const double now = strains[step] * stretch;
+                const double left =
+                  is_stable && now > how.first ? opening->carried(now) : how.share(now, how.first, square);
+                sum[step].add(j, left, (2. * along - across) * bond, 2. * along - across);
+                difference[step].add(j, left, across * bond, across);
+              }
+          }
+        const auto stress = [&](const unsigned int step) {
+          return sum[step].twice() - difference[step].twice();
         };
         double largest = 0;
-        for (unsigned int step = 0; step <= n_steps; ++step)
-          {
-            const double strain =
-              how.first * lowest * std::pow(highest / lowest, static_cast<double>(step) / n_steps);
-            largest = std::max(largest, strain * stress([&](const LocalIndex j) {
-                                          return how.share(strain * eps_of(j) / family.length_square[j],
-                                                           how.first,
-                                                           how.energy * squares[j]);
-                                        }));
-          }
-        mean += largest / (stress([](const LocalIndex) { return 1.; }) * normals.size());
+        for (unsigned int step = 1; step < strains.size(); ++step)
+          largest = std::max(largest, strains[step] * stress(step));
+        mean += largest / (stress(0) * normals.size());
       }
     return mean;
   }

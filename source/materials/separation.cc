@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -227,7 +228,7 @@ namespace perideal
     find_across(normal);
     struct Bond
     {
-      double first, square, of_opening, layer;
+      double first, square, of_opening;
       bool   softens;
       /// Stretches where it begins to go, and where it has gone.
       double begin, end;
@@ -242,7 +243,6 @@ namespace perideal
         bond.square     = how.energy * squares[j];
         bond.first      = how.first > 0 ? how.first : how.first_share * std::sqrt(bond.square);
         bond.of_opening = reach[j] / family.length_square[j];
-        bond.layer      = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
         bond.softens    = how.law.is_stable(bond.first, bond.square);
         bond.begin      = bond.softens ? bond.first : std::sqrt(bond.square);
         bond.end        = bond.softens ? how.law.last(bond.first, bond.square) : bond.begin;
@@ -252,30 +252,31 @@ namespace perideal
       }
     if (!(highest > 0) || !(lowest > 0))
       return 0;
-    const double width = std::log(highest / lowest) / n_steps;
-    double       work  = 0;
+    const double                    width = std::log(highest / lowest) / n_steps;
+    std::array<double, n_steps + 1> openings, energies = {};
     for (unsigned int step = 0; step <= n_steps; ++step)
+      // Below the first point all bonds are whole, and W grows with w^2.
+      openings[step] = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
+    left.clear();
+    std::vector<FamilyEnergy<dim>> left_at(openings.size(), left);
+    for (std::size_t n = 0; n < across.size(); ++n)
       {
-        // Below the first point all bonds are whole, and W grows with w^2.
-        const double w      = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
-        double       energy = 0;
-        left.clear();
-        for (std::size_t n = 0; n < across.size(); ++n)
+        const LocalIndex      j     = across[n];
+        const Bond           &bond  = bonds_across[n];
+        const double          layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
+        SofteningLaw::Opening opening(how.law, bond.first, bond.square);
+        for (unsigned int step = 0; step <= n_steps; ++step)
           {
-            const LocalIndex j       = across[n];
-            const Bond      &bond    = bonds_across[n];
-            const double     stretch = w * bond.of_opening;
-            if (stretch < bond.end)
-              left.add(
-                j,
-                bond.softens && stretch > bond.begin ? how.law.carried(stretch, bond.first, bond.square) : 1.,
-                reach[j],
-                normal);
-            if (bond.layer > 0)
-              energy += bond.layer * left.twice();
+            if (const double stretch = openings[step] * bond.of_opening; stretch < bond.end)
+              left_at[step].add(
+                j, bond.softens && stretch > bond.begin ? opening.carried(stretch) : 1., reach[j], normal);
+            if (layer > 0)
+              energies[step] += layer * left_at[step].twice();
           }
-        work += (step == 0 ? 0.5 : width) * w * w * energy;
       }
+    double work = 0;
+    for (unsigned int step = 0; step <= n_steps; ++step)
+      work += (step == 0 ? 0.5 : width) * openings[step] * openings[step] * energies[step];
     return work / (family.node_volume * how.energy);
   }
 

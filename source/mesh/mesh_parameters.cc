@@ -84,11 +84,13 @@ namespace perideal
       "abs(y) < 0.01 && x > 0.1: the cells with their centre or a vertex there, then their children, "
       "and so on; empty: nowhere");
     prm.add_parameter("Refine times", refine_times, "How often that is done [-]", Integer(0, 12));
-    prm.add_parameter("Refine layers",
-                      refine_layers,
-                      "How many cells deep. One more than the horizon factor, so that no family meets three "
-                      "sizes of cells, keeps the system well conditioned and the error small [-]",
-                      Integer(1, 50));
+    prm.add_parameter(
+      "Refine layers",
+      refine_layers,
+      "How many cells deep; 0: so many that no family meets three sizes of cells, which keeps "
+      "the system well conditioned and the error small: twice the horizon factor less 1.25, "
+      "rounded up, and 4 at least [-]",
+      Integer(0, 50));
     prm.add_parameter("Thickness",
                       thickness,
                       "Thickness of a two-dimensional body, >= 1e-12; without meaning in 3-D [m]",

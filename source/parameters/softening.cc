@@ -58,16 +58,14 @@ namespace perideal
   SofteningLaw::Point
   SofteningLaw::look_at(const double stretch, const double first, const double brittle_square) const
   {
-    const double opening    = 0.5 * brittle_square / first;
-    const auto   stretch_at = [&](const std::pair<double, double> &point) {
-      return first * point.second + opening * point.first;
-    };
     // Stretches grow along the curve.
-    const auto line = std::partition_point(
-      curve.begin() + 1, curve.end(), [&](const auto &point) { return stretch_at(point) <= stretch; });
+    const auto line = std::partition_point(curve.begin() + 1, curve.end(), [&](const auto &point) {
+      return stretch_at(point, first, brittle_square) <= stretch;
+    });
     if (line == curve.end())
       return {0., 0.};
-    const double begin = stretch_at(*(line - 1)), end = stretch_at(*line);
+    const double begin   = stretch_at(*(line - 1), first, brittle_square),
+                 end     = stretch_at(*line, first, brittle_square);
     const double share   = std::max(0., (stretch - begin) / (end - begin));
     const double change  = (line->second - (line - 1)->second) * first;
     const double carried = ((line - 1)->second * first + share * change) / stretch;

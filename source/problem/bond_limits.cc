@@ -104,6 +104,7 @@ namespace perideal
     how.first_share = first_share;
     how.with_shares = calibrating.with_shares;
     how.memo        = calibrating.memo;
+    how.is_wanted   = calibrating.is_wanted;
     calibrated = calibrate_stretches<dim>(families, bonds, *discretisation.model, solids_of_model(body), how);
   }
 
@@ -141,9 +142,9 @@ namespace perideal
   {
     const double stretch = critical_stretch(body, id, 0.),
                  energy  = body.properties_of(id).mean_fracture_energy();
-    return std::isfinite(stretch)      ? stretch * stretch :
-           energy * of_unit_energy > 0 ? energy * of_unit_energy :
-                                         never;
+    // The least of a family that is not calibrated has a sign.
+    const double of_energy = energy * std::abs(of_unit_energy);
+    return std::isfinite(stretch) ? stretch * stretch : of_energy > 0 ? of_energy : never;
   }
 
   PERIDEAL_INSTANTIATE(strain_of_strength)

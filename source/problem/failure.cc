@@ -29,6 +29,50 @@ namespace perideal
         return criteria.at(id).utilisation(stress);
       };
     }
+
+    /// What gives bonds their critical stretches.
+    template <int dim>
+    struct StretchesOfBonds
+    {
+      const Body<dim>                                        &body;
+      const DiscreteBody<dim>                                &discretisation;
+      const Families<dim>                                    &families;
+      std::function<bool(const LocalIndex, const LocalIndex)> can_break;
+      std::shared_ptr<CalibrationMemo>                        memo;
+    };
+
+    /// Sets those of the bonds between some nodes, at least; others are calibrated on demand. Returns whether
+    /// there are others. Collective.
+    template <int dim>
+    bool set_stretches(const StretchesOfBonds<dim> &of, BondForce<dim> &force, const std::vector<bool> &nodes)
+    {
+      const MaterialParameters &material = of.body.parameters.material;
+      const SofteningLaw        law(material.softening, material.has_criterion());
+      const BondList           &bonds     = force.bond_list();
+      const bool                on_demand = of.memo && !law.waits() && !of.body.parameters.model.recomputes();
+      const BondLimits<dim>     limits(of.body,
+                                   of.discretisation,
+                                   of.families,
+                                   bonds,
+                                   {false,
+                                        of.memo.get(),
+                                    on_demand ?
+                                          [&](const LocalIndex i) { return !nodes.empty() && nodes[i]; } :
+                                          std::function<bool(const LocalIndex)>()});
+      UnknownLimits::Source     unknown;
+      if (!limits.are_all_known())
+        unknown = {[&](const LocalIndex i, const LocalIndex j) { return limits.is_known(bonds.find(i, j)); },
+                   [of, &force](const std::vector<bool> &more) { set_stretches(of, force, more); }};
+      force.set_critical_stretch(
+        [&](const LocalIndex i, const LocalIndex j) {
+          return of.can_break(i, j) ? limits(i, j, bonds.find(i, j)) :
+                                      std::numeric_limits<double>::infinity();
+        },
+        law,
+        [&](const LocalIndex i, const LocalIndex j) { return limits.first(i, j, bonds.find(i, j)); },
+        unknown);
+      return !limits.are_all_known();
+    }
   } // namespace
 
   template <int dim>
@@ -96,19 +140,12 @@ namespace perideal
       }
     const auto set_limits = [&body, &discretisation, can_both, memo = calibrations](
                               const Families<dim> &of, BondForce<dim> &bonds_of) {
-      const BondList       &bonds = bonds_of.bond_list();
-      const BondLimits<dim> limits(body, discretisation, of, bonds, {false, memo.get()});
-      bonds_of.set_critical_stretch(
-        [&](const LocalIndex i, const LocalIndex j) {
-          return can_both(i, j) ? limits(i, j, bonds.find(i, j)) : std::numeric_limits<double>::infinity();
-        },
-        SofteningLaw(body.parameters.material.softening, body.parameters.material.has_criterion()),
-        [&](const LocalIndex i, const LocalIndex j) { return limits.first(i, j, bonds.find(i, j)); });
+      return set_stretches<dim>({body, discretisation, of, can_both, memo}, bonds_of, {});
     };
     auto *zoned = dynamic_cast<ZonedForce<dim> *>(&force);
     if (zoned == nullptr)
       {
-        set_limits(families, force);
+        calibrates_later = set_limits(families, force);
         return;
       }
     typename ZonedForce<dim>::Limits limits{

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/mesh/local_refinement.h>
 #include <perideal/problem/mesh_need.h>
 
 #include <deal.II/base/mpi.h>
@@ -57,7 +58,7 @@ namespace perideal
     : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
     , time(time)
     , levels(problem.parameters.adaptation.levels)
-    , layers(1. + std::floor(problem.parameters.nodes.horizon_factor))
+    , layers(layers_between_sizes(problem.parameters.nodes.horizon_factor))
   {
     const AdaptationParameters &adaptation   = problem.parameters.adaptation;
     const Nodes<dim>           &nodes        = *problem.body.nodes;

@@ -109,8 +109,8 @@ namespace perideal
   void Problem<dim>::make_failure()
   {
     const Timings::Scope scope(run.timings, "setup");
-    // A zone that grows calibrates its bonds anew.
-    if (has_fracture_zone(parameters) && !failure.calibrations)
+    // Bonds are calibrated anew where a zone grows, or as they come near to breaking.
+    if (parameters.model.calibrates_bonds() && !failure.calibrations)
       failure.calibrations = std::make_shared<CalibrationMemo>();
     failure.apply(body, discretisation, *force);
   }
@@ -123,7 +123,8 @@ namespace perideal
     if (!parameters.model.recomputes())
       {
         discretisation.weights.reset();
-        discretisation.families->release_members();
+        if (!failure.calibrates_later)
+          discretisation.families->release_members();
         return;
       }
     force->reweigh_as_bonds_break(discretisation.weights, [this](const auto &nodes, const auto &is_gone) {

@@ -4,11 +4,25 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
 namespace perideal
 {
+  /**
+   * Returns how many cells of each size must lie between larger and smaller ones, so that no family meets
+   * three sizes: n of h/2 and a half of the first of h/4, from the middle of a cell h, are longer than its
+   * horizon m h if n > 2 m - 5/4. With a layer less, auxiliary preconditioners take four times the
+   * iterations (square grids, m = 3.01, two to four sizes); four serve the smallest horizons.
+   * @param horizon_factor m
+   */
+  inline unsigned int layers_between_sizes(const double horizon_factor)
+  {
+    return std::max(4u, static_cast<unsigned int>(std::ceil(2. * horizon_factor - 1.25)));
+  }
+
   /// Refinement towards boundaries and at places.
   struct LocalRefinement
   {

@@ -41,8 +41,8 @@ namespace perideal
     std::vector<std::string> refine_at;
     /// Where cells are refined besides, a formula in x, y, z that is not zero there; empty: nowhere.
     std::string refine_where;
-    /// How often they are, and at boundaries how many cells deep.
-    unsigned int refine_times = 0, refine_layers = 4;
+    /// How often they are, and at boundaries how many cells deep; 0: as deep as families need it.
+    unsigned int refine_times = 0, refine_layers = 0;
     /// Thickness of a two-dimensional body [m].
     double thickness = 1.;
     /// Boundaries of a mesh file that are circular cylinders about an axis in

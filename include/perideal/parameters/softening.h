@@ -4,6 +4,7 @@
 
 #include <perideal/parameters/listed.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,8 @@ namespace perideal
    */
   class SofteningLaw
   {
+    using Curve = std::vector<std::pair<double, double>>;
+
   public:
     /// @param waits whether bonds begin to soften no earlier than they are told to
     explicit SofteningLaw(const Softening &softening = "none", const bool waits = false);
@@ -68,6 +71,41 @@ namespace perideal
       return look_at(stretch, first, brittle_square).carried;
     }
 
+    /// Returns carried() of stretches that grow, beyond s_0: each looks for its place on the curve from that
+    /// of the last one.
+    class Opening
+    {
+    public:
+      /// @param law of bonds that soften; must outlive this object
+      Opening(const SofteningLaw &law, const double first, const double brittle_square)
+        : law(law)
+        , first(first)
+        , brittle_square(brittle_square)
+        , next(law.curve.begin() + 1)
+        , end(first)
+      {
+      }
+
+      double carried(const double stretch)
+      {
+        for (; end <= stretch && next != law.curve.end(); ++next)
+          {
+            begin = std::exchange(end, law.stretch_at(*next, first, brittle_square));
+            force = first * (next - 1)->second;
+            slope = (first * next->second - force) / (end - begin);
+          }
+        return end <= stretch ? 0. : (force + slope * std::max(0., stretch - begin)) / stretch;
+      }
+
+    private:
+      const SofteningLaw &law;
+      const double        first, brittle_square;
+      /// The line that is looked at: the point behind its end, its stretches, and the force over the
+      /// stiffness where it begins, with its slope.
+      Curve::const_iterator next;
+      double                end, begin = 0, force = 0, slope = 0;
+    };
+
     /// Returns dg/ds [-] where the stretch is the largest so far.
     double slope(const double stretch, const double first, const double brittle_square) const
     {
@@ -79,10 +117,14 @@ namespace perideal
     {
       double carried, slope;
     };
+    double stretch_at(const Curve::value_type &point, const double first, const double brittle_square) const
+    {
+      return first * point.second + 0.5 * brittle_square / first * point.first;
+    }
     Point look_at(const double stretch, const double first, const double brittle_square) const;
 
-    std::vector<std::pair<double, double>> curve;
-    bool                                   is_told = false;
+    Curve curve;
+    bool  is_told = false;
     /// The least (s_d/s_0)^2 with which stretches grow as bonds open [-].
     double least = 1.;
   };

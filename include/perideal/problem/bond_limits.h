@@ -5,6 +5,7 @@
 #include <perideal/operators/weights/calibrated_stretches.h>
 #include <perideal/problem/discrete_body.h>
 
+#include <functional>
 #include <utility>
 
 namespace perideal
@@ -30,11 +31,12 @@ namespace perideal
   {
   public:
     /// How bonds are calibrated besides: whether shares() is asked for; where families are looked up, may be
-    /// null.
+    /// null; of which owned nodes the families are, at least, empty: of all.
     struct Calibrating
     {
-      bool             with_shares = false;
-      CalibrationMemo *memo        = nullptr;
+      bool                                  with_shares = false;
+      CalibrationMemo                      *memo        = nullptr;
+      std::function<bool(const LocalIndex)> is_wanted   = {};
     };
     /// Collective.
     BondLimits(const Body<dim>         &body,
@@ -44,6 +46,11 @@ namespace perideal
                const Calibrating       &calibrating);
 
     double operator()(const LocalIndex i, const LocalIndex j, const BondIndex slot) const;
+
+    /// Whether a bond is calibrated, if it is to be; until then its stretches are the least they can be.
+    bool is_known(const BondIndex slot) const { return calibrated.is_known(slot); }
+    /// Whether all bonds of all ranks are.
+    bool are_all_known() const { return calibrated.are_all_known; }
 
     /// The stretch at which a bond begins to soften: that with which families bear the tensile strength, of
     /// the weaker material; or a share of the stretch at which it would break at once.

@@ -47,7 +47,9 @@ namespace perideal
     void apply(const Body<dim> &body, const DiscreteBody<dim> &discretisation, BondForce<dim> &force);
 
     /// What families were calibrated to, where a scene calibrates more than once; else null.
-    std::shared_ptr<CalibrationMemo>  calibrations;
+    std::shared_ptr<CalibrationMemo> calibrations;
+    /// Whether bonds are calibrated on demand, for which the members of families are needed.
+    bool                              calibrates_later = false;
     std::vector<Precrack<dim>>        precracks;
     std::unique_ptr<NoFailZones<dim>> no_fail_zones;
     /// Nodes of all ranks in these zones, and bonds that precracks cut.

@@ -46,8 +46,7 @@ namespace perideal
     SpaceTimeFunction<dim> where;
     double                 time;
     unsigned int           levels;
-    /// How many cells of a size there are at least between larger and smaller ones: one more than the horizon
-    /// factor, as of Mesh/Refine layers.
+    /// layers_between_sizes().
     double layers;
     Boxes  within_reach, urgent;
   };

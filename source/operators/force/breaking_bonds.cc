@@ -67,7 +67,7 @@ namespace perideal
                                       dealii::AlignedVector<NodeRecord> *records,
                                       const std::vector<LocalIndex>     *some)
   {
-    n_lost_before = this->lost.size();
+    n_lost.before = this->lost.size();
     softening.begin(critical_stretch);
     const LocalIndex n_owned = families->n_owned(), n_local = families->n_local();
     const auto       visit_nodes = [&](const auto &visit) {
@@ -107,24 +107,91 @@ namespace perideal
       visit_nodes,
       some == nullptr);
     ghosted.zero_out_ghost_values();
+    if (can_break() && unknown.take_first_look())
+      find_out_limits(true);
   }
 
   template <int dim>
   void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
                                                 const SofteningLaw                             &law,
-                                                const typename BondForce<dim>::CriticalStretch &first)
+                                                const typename BondForce<dim>::CriticalStretch &first,
+                                                const UnknownLimits::Source                    &source)
   {
-    const auto by_slot = [&](const typename BondForce<dim>::CriticalStretch &of_bond) {
-      std::vector<float> result(bonds.n_slots(), never);
-      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-          if (bonds.neighbour[slot] != i && carries_force(slot))
-            result[slot] = static_cast<float>(std::min<double>(of_bond(i, bonds.neighbour[slot]), never));
-      return result;
-    };
-    critical_stretch = by_slot(stretch);
-    if (law.softens())
-      softening = SofteningBonds(law, critical_stretch, by_slot(first));
+    const bool is_new = !unknown.are_there();
+    if (is_new)
+      {
+        critical_stretch.assign(bonds.n_slots(), never);
+        if (law.softens())
+          softening = SofteningBonds(law, critical_stretch);
+      }
+    std::vector<bool> left(source.is_known ? bonds.n_slots() : 0, false);
+    unsigned int      any_left = 0;
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (const LocalIndex j = bonds.neighbour[slot];
+            j != i && carries_force(slot) && (is_new || unknown.contains(slot)))
+          {
+            const auto at_most_never = [](const double value) {
+              return static_cast<float>(std::min<double>(value, never));
+            };
+            float      &limit = critical_stretch[slot] = at_most_never(stretch(i, j));
+            const bool  breaks                         = limit < never;
+            const float begins                         = law.softens() ? at_most_never(first(i, j)) : limit;
+            if (law.softens())
+              softening.begin_at(slot, begins, limit);
+            if (!left.empty() && breaks && !source.is_known(i, j))
+              {
+                limit      = std::min(limit, begins);
+                left[slot] = true;
+                any_left   = 1;
+              }
+          }
+    if (left.empty() || dealii::Utilities::MPI::max(any_left, families->communicator) == 0)
+      unknown = UnknownLimits();
+    else
+      unknown = UnknownLimits(source.find_out,
+                              std::move(left),
+                              is_new ? std::vector<bool>(families->n_local(), false) : unknown.asked_nodes(),
+                              !is_new);
+  }
+
+  template <int dim>
+  bool BreakingBonds<dim>::find_out_limits(const bool anyway)
+  {
+    const unsigned int is_asked = unknown.take_question();
+    if (!unknown.are_there() ||
+        (!anyway && dealii::Utilities::MPI::max(is_asked, families->communicator) == 0))
+      return false;
+    std::vector<bool> nodes(families->n_local(), false);
+    unsigned int      any = 0;
+    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+        if (unknown.contains(slot) && carries_force(slot) &&
+            stretch(i, slot) > UnknownLimits::alike * critical_stretch[slot])
+          {
+            nodes[i] = nodes[bonds.neighbour[slot]] = true;
+            any                                     = 1;
+          }
+    if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
+      return false;
+    // In a motion their neighbours are next; states on the way to an equilibrium may be far from it.
+    if (judgement == Judgement::for_good)
+      nodes = families->with_members(families->with_members(nodes));
+    unknown.find_out(nodes);
+    return true;
+  }
+
+  template <int dim>
+  double BreakingBonds<dim>::stretch(const LocalIndex i, const BondIndex slot) const
+  {
+    const NodeRecord &near = position[i], &far = position[bonds.neighbour[slot]];
+    double            square = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double y = far.value[d] - near.value[d];
+        square += y * y;
+      }
+    return std::sqrt(square) / rest_length[slot] - 1.;
   }
 
   template <int dim>
@@ -149,7 +216,7 @@ namespace perideal
             this->lost.push_back({slot, i, bonds.neighbour[slot]});
             ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
-    n_cut = this->lost.size();
+    n_lost.cut = this->lost.size();
     return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
   }
 
@@ -184,7 +251,7 @@ namespace perideal
   {
     // Bonds that the partition cuts break on both ranks.
     GlobalIndex ends = 0;
-    for (std::size_t k = n_lost_before; k < this->lost.size(); ++k)
+    for (std::size_t k = n_lost.before; k < this->lost.size(); ++k)
       ends += this->lost[k].far < families->n_owned() ? 2 : 1;
     return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
   }
@@ -221,7 +288,7 @@ namespace perideal
   {
     softening.begin(critical_stretch);
     Memory result;
-    for (std::size_t k = n_cut; k < this->lost.size(); ++k)
+    for (std::size_t k = n_lost.cut; k < this->lost.size(); ++k)
       result.broken.push_back({this->lost[k].near, this->lost[k].far});
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
@@ -238,8 +305,15 @@ namespace perideal
   template <int dim>
   void BreakingBonds<dim>::restore(const Memory &earlier)
   {
+    if (unknown.are_there())
+      {
+        std::vector<bool> ends(families->n_local(), false);
+        for (const BondEnds &bond : earlier.softened)
+          ends[bond.near] = ends[bond.far] = true;
+        unknown.find_out(ends);
+      }
     restore_broken(earlier.broken);
-    n_lost_before = this->lost.size();
+    n_lost.before = this->lost.size();
     for (std::size_t b = 0; b < earlier.softened.size(); ++b)
       if (const BondIndex slot = bonds.find(earlier.softened[b].near, earlier.softened[b].far);
           softening.softens() && slot != BondList::no_slot && carries_force(slot))
@@ -272,13 +346,9 @@ namespace perideal
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (const LocalIndex j = bonds.neighbour[slot]; j != i && carries_force(slot))
           {
-            double square = 0;
-            for (int d = 0; d < dim; ++d)
-              {
-                const double y = position[j].value[d] - position[i].value[d];
-                square += y * y;
-              }
-            const double share       = (std::sqrt(square) / rest_length[slot] - 1.) / critical_stretch[slot];
+            const double limit =
+              critical_stretch[slot] / (unknown.contains(slot) ? UnknownLimits::share_of_limit : 1.);
+            const double share       = stretch(i, slot) / limit;
             largest.local_element(i) = std::max(largest.local_element(i), share);
             // A bond that the partition cuts is looked at from its other end, too.
             if (j < families->n_owned())
@@ -305,7 +375,7 @@ namespace perideal
     using dealii::MemoryConsumption::memory_consumption;
     return bonds.memory_consumption() + memory_consumption(rest_length) +
            memory_consumption(critical_stretch) + regions.memory_consumption() +
-           softening.memory_consumption() + volumes.memory_consumption() +
+           softening.memory_consumption() + unknown.memory_consumption() + volumes.memory_consumption() +
            this->lost.capacity() * sizeof(this->lost[0]) + 2 * position.size() * sizeof(NodeRecord) +
            ghosted.memory_consumption();
   }

@@ -36,10 +36,10 @@ namespace perideal
   {
     for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
       {
-        if (!(excess[lane] > 0))
-          continue;
         const BondIndex slot = first_slot + lane;
-        BrokenBond      bond;
+        if (!(excess[lane] > 0) || this->is_unknown(slot))
+          continue;
+        BrokenBond bond;
         bond.slot      = slot;
         bond.near      = i;
         bond.far       = bonds.neighbour[slot];

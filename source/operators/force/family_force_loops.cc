@@ -155,13 +155,17 @@ namespace perideal
     this->move_nodes(displacement);
     // What softened carries its share, judged or not.
     if (softening.softens())
-      compute_forces<Failing::gradually>(force);
+      do
+        compute_forces<Failing::gradually>(force);
+      while (this->find_out_limits());
     else if (!this->can_break())
       compute_forces<Failing::not_at_all>(force);
     else if (reweigh)
       compute_and_reweigh(force);
     else
-      compute_forces<Failing::at_once>(force);
+      do
+        compute_forces<Failing::at_once>(force);
+      while (this->find_out_limits());
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>

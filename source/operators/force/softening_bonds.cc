@@ -9,32 +9,32 @@
 
 namespace perideal
 {
-  SofteningBonds::SofteningBonds(const SofteningLaw       &law,
-                                 std::vector<float>       &limits,
-                                 const std::vector<float> &first)
+  SofteningBonds::SofteningBonds(const SofteningLaw &law, const std::vector<float> &limits)
     : law(law)
     , shares(limits.size(), 1.f)
     , first(limits)
-    , brittle_square(limits)
+    , brittle_square(limits.size(), std::numeric_limits<float>::infinity())
     , waiting(law.waits() ? limits.size() : 0, false)
     , is_started(waiting)
   {
-    for (BondIndex slot = 0; slot < limits.size(); ++slot)
+  }
+
+  void SofteningBonds::begin_at(const BondIndex slot, const float given, float &limit)
+  {
+    const double square  = static_cast<double>(limit) * limit;
+    brittle_square[slot] = static_cast<float>(square);
+    first[slot]          = limit;
+    // Bonds that never break do not soften either.
+    if (!(square <= std::numeric_limits<float>::max()))
+      return;
+    if (law.waits())
       {
-        const double square  = static_cast<double>(limits[slot]) * limits[slot];
-        brittle_square[slot] = static_cast<float>(square);
-        // Bonds that never break do not soften either.
-        if (!(square <= std::numeric_limits<float>::max()))
-          continue;
-        if (law.waits())
-          {
-            waiting[slot]     = true;
-            this->first[slot] = first[slot];
-            limits[slot]      = never;
-          }
-        else if (law.is_stable(first[slot], square))
-          this->first[slot] = limits[slot] = first[slot];
+        waiting[slot] = true;
+        first[slot]   = given;
+        limit         = never;
       }
+    else if (law.is_stable(given, square))
+      first[slot] = limit = given;
   }
 
   void SofteningBonds::start(const BondIndex slot, const double stretch, float &limit)

@@ -49,11 +49,10 @@ namespace perideal
   void TensorForce<dim>::break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin)
   {
     for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
-      if (margin[lane] < 0)
+      if (const BondIndex slot = first_slot + lane; margin[lane] < 0 && !this->is_unknown(slot))
         {
-          const BondIndex slot  = first_slot + lane;
-          const auto      whole = tensor(slot);
-          const auto      change =
+          const auto whole = tensor(slot);
+          const auto change =
             this->overstretch(slot, i, critical_stretch[slot] - margin[lane] / rest_length[slot]);
           broken_now.push_back({i, bonds.neighbour[slot], (change.before - change.after) * whole});
         }
@@ -159,7 +158,9 @@ namespace perideal
     this->move_nodes(displacement, &displacements);
     // What softened carries its share, judged or not.
     if (this->can_break() || softening.softens())
-      sum_forces<true>();
+      do
+        sum_forces<true>();
+      while (this->find_out_limits());
     else
       sum_forces<false>();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)

@@ -25,6 +25,27 @@ namespace perideal
     /// Share of the strain of the tensile strength below which no family begins to soften: .75 to .84 do.
     constexpr double least_first = 0.6;
 
+    /// Different families that are calibrated whether they are wanted or not, at some 20 ms each: structured
+    /// meshes have no more.
+    constexpr std::size_t n_at_once = 64;
+
+    /// The least that a family can be calibrated to, which says that it is not.
+    template <int dim>
+    CalibratedFamily least_of(const FamilyView<dim>           &family,
+                              const Calibration<dim>          &how,
+                              const dealii::types::material_id material)
+    {
+      const BondFracture<dim> fracture = how.fracture_of(material);
+      // Separation::of_continuum() of the direction in which it is least.
+      const double smallest     = eigenvalues(fracture.by_normal)[dim - 1],
+                   of_direction = std::pow(smallest, dim + 1) / determinant(fracture.by_normal);
+      CalibratedFamily result;
+      result.squares.assign(family.size,
+                            -least_share * of_direction * how.of_continuum(material, family.horizon));
+      result.first = least_first * fracture.of_strength;
+      return result;
+    }
+
     template <int dim>
     CalibratedFamily calibrate(const FamilyView<dim>           &family,
                                LinearModel<dim>                &model,
@@ -62,6 +83,18 @@ namespace perideal
         result.shares = separation.by_direction(result.squares, failing);
       return result;
     }
+
+    /// One of the different families.
+    template <int dim>
+    struct Known
+    {
+      /// The first that was found.
+      FamilyView<dim> first;
+      /// What it is calibrated to, or the least that this can be, and the code of its first member.
+      CalibratedFamily made;
+      LocalIndex       first_code;
+      bool             is_calibrated = false;
+    };
 
     /// A family without the rounding of coordinates: numbers with so many bits that equal families get the
     /// same ones nearly always.
@@ -115,6 +148,9 @@ namespace perideal
                                           const SolidOf<dim>     &solid_of,
                                           const Calibration<dim> &how)
   {
+    const auto is_wanted = [&](const LocalIndex i) {
+      return !how.is_wanted || !how.of_continuum || how.is_wanted(i);
+    };
     const bool          many_equal = !model.depends_on_node() && EqualFamilies<dim>::are_many(families);
     EqualFamilies<dim>  equal(families);
     CalibratedStretches result;
@@ -126,8 +162,8 @@ namespace perideal
     std::vector<BondCursor::End> ends;
     FamilyView<dim>              family;
     // Of the different families, in the order of their numbers; of the last one where all may differ.
-    std::vector<CalibratedFamily> known;
-    std::vector<LocalIndex>       codes, first_code;
+    std::vector<Known<dim>> known;
+    std::vector<LocalIndex> codes;
     // Number of families, and sums of their shares.
     std::array<double, 4>      sums     = {};
     dealii::types::material_id material = dealii::numbers::invalid_material_id;
@@ -149,28 +185,34 @@ namespace perideal
         else
           known.clear();
         if (match.is_new)
+          known.push_back({family, {}, codes.empty() ? 0 : codes.front()});
+        Known<dim> &own = known[match.number];
+        if (!own.is_calibrated && (is_wanted(i) || (many_equal && match.number < n_at_once)))
           {
-            known.push_back(recall(family, model, how, material, !many_equal));
-            first_code.push_back(many_equal && family.size > 0 ? codes.front() : 0);
+            own.made          = recall(own.first, model, how, material, !many_equal);
+            own.is_calibrated = true;
           }
-        const CalibratedFamily &own = known[match.number];
+        else if (match.is_new)
+          own.made = least_of(family, how, material);
+        result.are_all_known = result.are_all_known && own.is_calibrated;
         for (LocalIndex k = 0; k < family.size; ++k)
           {
             const BondCursor::End &end = ends[family.member[k]];
             (end.is_near ? result.near : result.far)[end.slot] =
-              own.squares[many_equal ? codes[k] - first_code[match.number] : k];
+              own.made.squares[many_equal ? codes[k] - own.first_code : k];
             if (how.law.softens())
-              (end.is_near ? result.first_near : result.first_far)[end.slot] = own.first;
+              (end.is_near ? result.first_near : result.first_far)[end.slot] = own.made.first;
           }
-        const std::array<double, 4> more = {{1., own.shares.mean, own.shares.smallest, own.shares.largest}};
+        const std::array<double, 4> more = {
+          {1., own.made.shares.mean, own.made.shares.smallest, own.made.shares.largest}};
         for (unsigned int m = 0; m < more.size(); ++m)
           sums[m] += more[m];
       }
-    if (how.memo != nullptr)
-      how.memo->forget_unused();
     exchange_cut_bonds(families, bonds, {result.near.data()}, {result.far.data()});
     if (how.law.softens())
       exchange_cut_bonds(families, bonds, {result.first_near.data()}, {result.first_far.data()});
+    result.are_all_known =
+      dealii::Utilities::MPI::min(result.are_all_known ? 1u : 0u, families.communicator) == 1;
     for (double &sum : sums)
       sum = dealii::Utilities::MPI::sum(sum, families.communicator);
     if (sums[0] > 0)

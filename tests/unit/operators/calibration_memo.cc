@@ -12,7 +12,8 @@ namespace
 {
   /// Stretches of a mesh, and how many families were calibrated for them on this rank.
   template <int dim>
-  std::pair<CalibratedStretches, unsigned int> calibrated(const Mesh<dim> &mesh, CalibrationMemo *memo)
+  std::pair<CalibratedStretches, unsigned int> calibrated(
+    const Mesh<dim> &mesh, CalibrationMemo *memo, const std::function<bool(const LocalIndex)> &is_wanted = {})
   {
     const test::Body<dim> body(mesh, 2.01);
     ModelParameters       parameters;
@@ -32,8 +33,9 @@ namespace
       ++n;
       return 1e-3;
     };
-    how.law  = SofteningLaw("linear");
-    how.memo = memo;
+    how.law       = SofteningLaw("linear");
+    how.memo      = memo;
+    how.is_wanted = is_wanted;
     const ElasticConstants own{1., 0.25, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain};
     const auto             stretches = calibrate_stretches<dim>(
       *body.families,
@@ -61,8 +63,37 @@ TEST(CalibrationMemo, KnowsTheFamiliesOfTheMeshBefore)
   EXPECT_EQ(with.far, without.far);
   EXPECT_EQ(with.first_near, without.first_near);
   // What the last mesh did not need is gone.
+  memo.forget_unused();
+  EXPECT_EQ(calibrated(*finer, &memo).second, 0u);
+  memo.forget_unused();
   const std::size_t n_before = memo.size();
   EXPECT_EQ(calibrated(*finer, &memo).second, 0u);
   EXPECT_LE(memo.size(), n_before);
   EXPECT_GT(calibrated(*mesh, &memo).second, 0u);
+}
+
+/// Families that nobody asks for have the least that they can be calibrated to, those that are have what they
+/// have if all are.
+TEST(CalibrationMemo, CalibratesWhatIsWanted)
+{
+  const auto mesh           = test::make_box<2>({12, 12}, {1., 1.}, 0.3, MPI_COMM_SELF);
+  const auto [all, n_all]   = calibrated<2>(*mesh, nullptr);
+  const auto [some, n_some] = calibrated<2>(*mesh, nullptr, [](const LocalIndex i) { return i < 70; });
+  unsigned int n_known = 0, n_unknown = 0;
+  for (BondIndex slot = 0; slot < all.near.size(); ++slot)
+    {
+      EXPECT_TRUE(all.is_known(slot));
+      n_known += some.is_known(slot) && all.near[slot] > 0 && all.far[slot] > 0;
+      n_unknown += !some.is_known(slot);
+      for (const auto &[known, given] :
+           {std::pair{all.near[slot], some.near[slot]}, {all.far[slot], some.far[slot]}})
+        if (given >= 0)
+          EXPECT_EQ(given, known);
+        else
+          EXPECT_LE(-given, known);
+    }
+  EXPECT_TRUE(all.are_all_known);
+  EXPECT_FALSE(some.are_all_known);
+  EXPECT_GT(n_known, 0u);
+  EXPECT_GT(n_unknown, 0u);
 }

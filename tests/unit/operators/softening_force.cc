@@ -133,7 +133,107 @@ namespace
     EXPECT_LE(endless.force.linfty_norm(), 1e-14 * whole.force.linfty_norm());
     EXPECT_FALSE(endless.bonds->softening_bonds().any_now(MPI_COMM_WORLD));
   }
+
+  /// Limits of bonds, half of each unless both ends were asked for.
+  template <int dim>
+  struct LimitsOnDemand
+  {
+    double limit(const LocalIndex i, const LocalIndex j) const
+    {
+      const auto &position = body.body.families->position;
+      return 0.02 + 0.01 * test::scatter(dealii::Point<dim>(position[i] + position[j]), 7);
+    }
+    bool   is_known(const LocalIndex i, const LocalIndex j) const { return asked[i] && asked[j]; }
+    double told(const LocalIndex i, const LocalIndex j) const
+    {
+      return (is_known(i, j) ? 1. : 0.5) * limit(i, j);
+    }
+
+    /// What owners want to know counts. Collective.
+    void find_out(const std::vector<bool> &nodes)
+    {
+      NodalVector marks(body.body.families->make_partitioner(1));
+      for (LocalIndex i = 0; i < body.body.nodes.size(); ++i)
+        marks.local_element(i) = nodes[i] ? 1. : 0.;
+      marks.update_ghost_values();
+      for (LocalIndex i = 0; i < asked.size(); ++i)
+        asked[i] = marks.local_element(i) > 0;
+      const auto told_of = [this](const LocalIndex i, const LocalIndex j) { return told(i, j); };
+      body.bonds->set_critical_stretch(
+        told_of,
+        law,
+        [told_of](const LocalIndex i, const LocalIndex j) { return 0.5 * told_of(i, j); },
+        {[this](const LocalIndex i, const LocalIndex j) { return is_known(i, j); },
+         [this](const std::vector<bool> &more) { find_out(more); }});
+    }
+
+    SofteningBody<dim> &body;
+    SofteningLaw        law;
+    std::vector<bool>   asked;
+  };
+
+  /// Bonds whose limits are found out when they come near them fail as if they had been known.
+  template <int dim>
+  void expect_the_same_on_demand(const Mesh<dim>                           &mesh,
+                                 const std::pair<std::string, std::string> &variant,
+                                 const SofteningLaw                        &law)
+  {
+    SofteningBody<dim>  known(mesh, variant), on_demand(mesh, variant);
+    LimitsOnDemand<dim> limits{on_demand, law, std::vector<bool>(on_demand.body.families->n_local(), false)};
+    limits.find_out(limits.asked);
+    const auto limit_of = [&](const LocalIndex i, const LocalIndex j) { return limits.limit(i, j); };
+    known.bonds->set_critical_stretch(
+      limit_of, law, [&](const LocalIndex i, const LocalIndex j) { return 0.5 * limit_of(i, j); });
+    // The farther to the right, the more.
+    NodalVector motion = known.scattered(1., 4), force(motion);
+    for (LocalIndex i = 0; i < known.body.nodes.size(); ++i)
+      for (int d = 0; d < dim; ++d)
+        motion.local_element(dim * i + d) *=
+          0.1 * known.body.nodes.spacing[i] * std::pow(known.body.nodes.position[i][0] / 4., 8);
+    double n_broken = 0;
+    for (const double share : {0.1, 0.4, 0.7, 1.})
+      for (const Judgement judgement : {Judgement::on_trial, Judgement::for_good})
+        {
+          NodalVector now(motion);
+          now *= share;
+          for (auto *body : {&known, &on_demand})
+            {
+              body->bonds->judge_bonds(judgement);
+              body->bonds->compute(body->force, now);
+            }
+          force = known.force;
+          force -= on_demand.force;
+          EXPECT_LE(force.linfty_norm(), 1e-6 * known.force.linfty_norm());
+          EXPECT_EQ(known.bonds->n_broken_now(), on_demand.bonds->n_broken_now());
+          n_broken += known.bonds->n_broken_now();
+          const NodalVector velocity = known.scattered(1., 5);
+          EXPECT_NEAR(known.bonds->released_energy(velocity, 0.),
+                      on_demand.bonds->released_energy(velocity, 0.),
+                      1e-6 * known.bonds->strain_energy());
+        }
+    EXPECT_GT(n_broken, 0);
+    const std::vector<double> damage = known.bonds->damage(), same = on_demand.bonds->damage();
+    for (std::size_t i = 0; i < damage.size(); ++i)
+      EXPECT_NEAR(damage[i], same[i], 1e-6);
+    // Most of the body is not asked for.
+    const auto         begin = limits.asked.begin();
+    const unsigned int n     = dealii::Utilities::MPI::sum<unsigned int>(
+      std::count(begin, begin + known.body.nodes.size(), true), MPI_COMM_WORLD);
+    EXPECT_GT(n, 0u);
+    EXPECT_LT(n, dealii::Utilities::MPI::sum(known.body.nodes.size(), MPI_COMM_WORLD));
+  }
 } // namespace
+
+TEST(SofteningForce, FindsOutLimitsOnDemand)
+{
+  for (const auto &variant : test::bond_models)
+    for (const char *law : {"none", "bilinear"})
+      {
+        SCOPED_TRACE(variant.first + ", " + variant.second + ", softening " + law);
+        expect_the_same_on_demand<2>(
+          *test::make_box<2>({40, 4}, {4., 0.4}, 0.2, MPI_COMM_WORLD), variant, SofteningLaw(law));
+      }
+}
 
 TEST(SofteningForce, SoftensAsFarAsItIsJudged)
 {

@@ -5,6 +5,7 @@
 #include <perideal/base/lanes.h>
 #include <perideal/operators/force/softening_bonds.h>
 #include <perideal/operators/force/switching_force.h>
+#include <perideal/operators/force/unknown_limits.h>
 #include <perideal/operators/weights/family_weights.h>
 
 #include <deal.II/base/tensor.h>
@@ -38,9 +39,12 @@ namespace perideal
     /// Makes bonds breakable from now on.
     /// @param law by which they soften before, taking as much energy (not where they break by stress)
     /// @param first stretch where they begin to; may be empty where they break at once
-    virtual void set_critical_stretch(const CriticalStretch &stretch,
-                                      const SofteningLaw    &law   = SofteningLaw(),
-                                      const CriticalStretch &first = {}) = 0;
+    /// @param unknown of which bonds these are the least that they can be, until this is called again for the
+    /// others of them; empty: all are known. Collective where it is not.
+    virtual void set_critical_stretch(const CriticalStretch       &stretch,
+                                      const SofteningLaw          &law     = SofteningLaw(),
+                                      const CriticalStretch       &first   = {},
+                                      const UnknownLimits::Source &unknown = {}) = 0;
 
     /// What softening has left of the bonds.
     virtual const SofteningBonds &softening_bonds() const { return softening; }

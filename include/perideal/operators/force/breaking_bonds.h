@@ -25,8 +25,9 @@ namespace perideal
   {
   public:
     void        set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                                     const SofteningLaw                             &law   = SofteningLaw(),
-                                     const typename BondForce<dim>::CriticalStretch &first = {}) override;
+                                     const SofteningLaw                             &law     = SofteningLaw(),
+                                     const typename BondForce<dim>::CriticalStretch &first   = {},
+                                     const UnknownLimits::Source                    &unknown = {}) override;
     void        judge_bonds(const Judgement judgement) override;
     GlobalIndex cut(const BondPredicate<dim> &is_cut) override;
     GlobalIndex n_broken_now() const override;
@@ -52,7 +53,7 @@ namespace perideal
     };
     /// What softened without being judged is taken back first.
     Memory memory();
-    /// Breaks and softens bonds as they did before. Those that are no bonds here are left out.
+    /// Breaks and softens bonds as they did before. Those that are no bonds here are left out. Collective.
     void restore(const Memory &earlier);
 
     /// Registers the memory of the bonds that are there when it is asked for.
@@ -93,6 +94,13 @@ namespace perideal
                     dealii::AlignedVector<NodeRecord> *records = nullptr,
                     const std::vector<LocalIndex>     *some    = nullptr);
 
+    /// Whether it is not known yet if a bond beyond its limit fails.
+    bool is_unknown(const BondIndex slot) { return unknown.holds(slot); }
+    /// Finds out the limits of bonds that is_unknown() was asked about, and of more. Returns whether there
+    /// were such: what fails is then to be looked at again. Collective.
+    /// @param anyway whether all bonds are looked at even so
+    bool find_out_limits(const bool anyway = false);
+
     /// Softens or breaks a bond of this stretch, which is beyond its limit; the caller has looked at its
     /// weights.
     SofteningBonds::Change overstretch(const BondIndex slot, const LocalIndex near, const double stretch);
@@ -117,10 +125,18 @@ namespace perideal
     /// Takes out a bond: its weights and its limit.
     void remove(const BondIndex slot);
 
+    /// The present stretch of a bond of a node [-].
+    double stretch(const LocalIndex i, const BondIndex slot) const;
+
+    UnknownLimits    unknown;
     Judgement        judgement = Judgement::for_good;
     LostVolumes<dim> volumes;
     /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
-    std::size_t n_cut = 0, n_lost_before = 0;
+    struct Lost
+    {
+      std::size_t cut = 0, before = 0;
+    };
+    Lost        n_lost;
     NodalVector ghosted;
   };
 } // namespace perideal

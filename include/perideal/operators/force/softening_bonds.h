@@ -43,10 +43,13 @@ namespace perideal
     /// Bonds break at once.
     SofteningBonds() = default;
 
-    /// @param limits critical stretches of bonds that break at once, which become those where they begin to
-    /// soften
-    /// @param first where bonds are to begin; where a bond could not open stably, it breaks at once
-    SofteningBonds(const SofteningLaw &law, std::vector<float> &limits, const std::vector<float> &first);
+    /// @param limits of bonds none of which breaks yet
+    SofteningBonds(const SofteningLaw &law, const std::vector<float> &limits);
+
+    /// Lets a bond soften.
+    /// @param first where it is to begin; where it could not open stably, it breaks at once
+    /// @param limit its critical stretch if it breaks at once, which becomes that where it begins to soften
+    void begin_at(const BondIndex slot, const float first, float &limit);
 
     bool softens() const { return law.softens(); }
 

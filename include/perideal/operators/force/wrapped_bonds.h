@@ -15,10 +15,11 @@ namespace perideal
   {
   public:
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                              const SofteningLaw                             &law   = SofteningLaw(),
-                              const typename BondForce<dim>::CriticalStretch &first = {}) override
+                              const SofteningLaw                             &law     = SofteningLaw(),
+                              const typename BondForce<dim>::CriticalStretch &first   = {},
+                              const UnknownLimits::Source                    &unknown = {}) override
     {
-      bonds->set_critical_stretch(stretch, law, first);
+      bonds->set_critical_stretch(stretch, law, first, unknown);
     }
     const SofteningBonds &softening_bonds() const override { return bonds->softening_bonds(); }
     void                  judge_bonds(const Judgement judgement) override { bonds->judge_bonds(judgement); }

@@ -73,7 +73,8 @@ namespace perideal
     /// Not for this force: limits are set again where families are made.
     void set_critical_stretch(const typename BondForce<dim>::CriticalStretch &,
                               const SofteningLaw &,
-                              const typename BondForce<dim>::CriticalStretch &) override
+                              const typename BondForce<dim>::CriticalStretch &,
+                              const UnknownLimits::Source &) override
     {
       AssertThrow(false, dealii::ExcNotImplemented());
     }

@@ -39,6 +39,9 @@ namespace perideal
     /// them, may count many times what those over all do, and its bonds would break far too early; none is
     /// taken below a share of this. Empty: all are taken as they are.
     std::function<double(const dealii::types::material_id, const double)> of_continuum;
+    /// Of which owned nodes families are calibrated, and some more where that takes no time worth speaking
+    /// of; empty, or without of_continuum: all.
+    std::function<bool(const LocalIndex)> is_wanted;
     /// Whether the energies by direction are looked at, too.
     bool with_shares = false;
     /// Where families are looked up first, and kept; null: nowhere. All else here must be as it was.
@@ -50,13 +53,18 @@ namespace perideal
   struct CalibratedStretches
   {
     /// Squares of the stretches for a unit of the mean fracture energy, by slot [m^2/J]; 0 where a family has
-    /// no say.
+    /// no say. Of families that are not calibrated yet, - the least that they can be.
     std::vector<double> near, far;
     /// Where bonds begin to soften, so that the family bears the tensile strength (BulkStrength), by slot
-    /// [-]; 0 without a strength; empty where bonds break at once.
+    /// [-], or the least that this can be; 0 without a strength; empty where bonds break at once.
     std::vector<double> first_near, first_far;
     /// What planes take of the fracture energy, by direction, on the mean over the families [-].
     EnergyByDirection shares;
+
+    /// Whether both ends of a bond are calibrated.
+    bool is_known(const BondIndex slot) const { return near.empty() || (near[slot] >= 0 && far[slot] >= 0); }
+    /// Whether all families of all ranks are.
+    bool are_all_known = true;
   };
 
   /// Calibrates the bonds of all whole families of materials that break, as if no bond was cut. Collective.
