@@ -80,6 +80,8 @@ namespace perideal
                      forces.largest_rate() > solver.damping ? "Solver/Relative damping" : "Solver/Damping");
         if (resumed)
           steps.resume(solver, resumed->template get<double>("time step"));
+        if (const auto change = this->mesh_has_changed ? steps.divide(solver) : ""; !change.empty())
+          problem.run.warn(change);
         steps.choose_levels(problem,
                             [&](const std::vector<bool> &moves) { return this->largest_stable_step(moves); });
         if (steps.shortest() > steps.stable)
@@ -166,7 +168,12 @@ namespace perideal
         register_state();
         const bool is_restart = resumed && !this->mesh_has_changed;
         if (resumed)
-          this->resume_checkpoint();
+          {
+            this->resume_checkpoint();
+            // Which tells the steps of the earlier mesh.
+            steps.resume(solver, steps.size / steps.parts);
+            dynamics->divide_steps(steps.parts);
+          }
         if (is_restart && mesh_is_due())
           return StepsEnd::mesh_changes;
         if (!problem.loading.supports->hold_nodes())

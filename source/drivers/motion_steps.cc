@@ -50,6 +50,18 @@ namespace perideal
     number = std::ceil(solver.end_time / size - 1e-6);
   }
 
+  std::string MotionSteps::divide(const SolverParameters &solver)
+  {
+    if (solver.time_step > 0 || shortest() <= stable)
+      return "";
+    while (shortest() / parts > solver.time_step_safety * stable)
+      parts *= 2;
+    resume(solver, size / parts);
+    return "the changed mesh is stable with shorter steps only: from here on they are " + short_number(size) +
+           " s. Where cells failed before they were small, take a larger Adaptation/Reach or a smaller "
+           "Interval";
+  }
+
   template <int dim>
   void MotionSteps::choose_levels(const Problem<dim>                                     &problem,
                                   const std::function<double(const std::vector<bool> &)> &stable_of)

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <utility>
+
 namespace perideal
 {
   template <int dim>
@@ -99,9 +101,12 @@ namespace perideal
     if (added.sub_steps)
       take_steps_between(external);
     if (n_steps == 0 && scheme.start == Start::velocity_verlet)
+      scheme.later = 0.5 * scheme.time_step;
+    if (const double later = std::exchange(scheme.later, 0.); later != 0)
       for (std::size_t k = 0; k < dim * mass.size(); ++k)
-        velocity.local_element(k) -=
-          0.5 * scheme.time_step * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
+        if (n_steps == 0 || !held.nodes.mask()[k])
+          velocity.local_element(k) -=
+            later * (work.force.local_element(k) + external.local_element(k)) / mass[k / dim];
     breaks.switched += bonds.switched_energy(velocity, scheme.time_step);
     const SofteningBonds &softening = bonds.softening_bonds();
     if (softening.softens() ? softening.any_now(displacement.get_mpi_communicator()) : breaks.now > 0)

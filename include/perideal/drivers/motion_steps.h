@@ -29,6 +29,10 @@ namespace perideal
     /// Goes on with the steps of an earlier run [s].
     void resume(const SolverParameters &solver, const double earlier);
 
+    /// Halves the steps of an earlier mesh until they are a safe share of the largest stable one, where they
+    /// are not stable and the scene asks for none. Returns what to tell of that; empty: nothing.
+    std::string divide(const SolverParameters &solver);
+
     /// Chooses the nodes with longer steps than the shortest, where the scene wants that. Collective.
     /// @param stable_of the largest stable step of some nodes, all others held [s]
     template <int dim>
@@ -48,6 +52,8 @@ namespace perideal
     /// The step and the largest stable one of all nodes [s]; the number of steps.
     double        size = 0, stable = 0;
     std::uint64_t number = 0;
+    /// Into how many parts divide() has divided each step.
+    unsigned int parts = 1;
     /// Null where all nodes take the same step.
     std::shared_ptr<const LocalSteps> local;
 

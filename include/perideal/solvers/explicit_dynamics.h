@@ -96,6 +96,13 @@ namespace perideal
       return gone;
     }
 
+    /// Goes on with steps that were so many times as long: velocities come from half of such a step before.
+    void divide_steps(const unsigned int parts)
+    {
+      n_steps *= parts;
+      scheme.later = 0.5 * (1. - parts) * scheme.time_step;
+    }
+
     /// Advances by one step.
     void advance();
 
@@ -151,8 +158,10 @@ namespace perideal
     {
       double damping, time_step;
       Start  start;
+      /// Velocities are given so much later than they are wanted [s]; once they are taken there, 0.
+      double later = 0.;
     };
-    const Scheme scheme;
+    Scheme scheme;
 
     /// What changes the force of the bonds: others that add theirs, and shorter steps of small cells; null
     /// without.

@@ -112,89 +112,6 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::set_critical_stretch(const typename BondForce<dim>::CriticalStretch &stretch,
-                                                const SofteningLaw                             &law,
-                                                const typename BondForce<dim>::CriticalStretch &first,
-                                                const UnknownLimits::Source                    &source)
-  {
-    const bool is_new = !unknown.are_there();
-    if (is_new)
-      {
-        critical_stretch.assign(bonds.n_slots(), never);
-        if (law.softens())
-          softening = SofteningBonds(law, critical_stretch);
-      }
-    std::vector<bool> left(source.is_known ? bonds.n_slots() : 0, false);
-    unsigned int      any_left = 0;
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (const LocalIndex j = bonds.neighbour[slot];
-            j != i && carries_force(slot) && (is_new || unknown.contains(slot)))
-          {
-            const auto at_most_never = [](const double value) {
-              return static_cast<float>(std::min<double>(value, never));
-            };
-            float      &limit = critical_stretch[slot] = at_most_never(stretch(i, j));
-            const bool  breaks                         = limit < never;
-            const float begins                         = law.softens() ? at_most_never(first(i, j)) : limit;
-            if (law.softens())
-              softening.begin_at(slot, begins, limit);
-            if (!left.empty() && breaks && !source.is_known(i, j))
-              {
-                limit      = std::min(limit, begins);
-                left[slot] = true;
-                any_left   = 1;
-              }
-          }
-    if (left.empty() || dealii::Utilities::MPI::max(any_left, families->communicator) == 0)
-      unknown = UnknownLimits();
-    else
-      unknown = UnknownLimits(source.find_out,
-                              std::move(left),
-                              is_new ? std::vector<bool>(families->n_local(), false) : unknown.asked_nodes(),
-                              !is_new);
-  }
-
-  template <int dim>
-  bool BreakingBonds<dim>::find_out_limits(const bool anyway)
-  {
-    const unsigned int is_asked = unknown.take_question();
-    if (!unknown.are_there() ||
-        (!anyway && dealii::Utilities::MPI::max(is_asked, families->communicator) == 0))
-      return false;
-    std::vector<bool> nodes(families->n_local(), false);
-    unsigned int      any = 0;
-    for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        if (unknown.contains(slot) && carries_force(slot) &&
-            stretch(i, slot) > UnknownLimits::alike * critical_stretch[slot])
-          {
-            nodes[i] = nodes[bonds.neighbour[slot]] = true;
-            any                                     = 1;
-          }
-    if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
-      return false;
-    // In a motion their neighbours are next; states on the way to an equilibrium may be far from it.
-    if (judgement == Judgement::for_good)
-      nodes = families->with_members(families->with_members(nodes));
-    unknown.find_out(nodes);
-    return true;
-  }
-
-  template <int dim>
-  double BreakingBonds<dim>::stretch(const LocalIndex i, const BondIndex slot) const
-  {
-    const NodeRecord &near = position[i], &far = position[bonds.neighbour[slot]];
-    double            square = 0;
-    for (int d = 0; d < dim; ++d)
-      {
-        const double y = far.value[d] - near.value[d];
-        square += y * y;
-      }
-    return std::sqrt(square) / rest_length[slot] - 1.;
-  }
-
-  template <int dim>
   void BreakingBonds<dim>::judge_bonds(const Judgement given)
   {
     judgement = given;
@@ -211,21 +128,11 @@ namespace perideal
         if (bonds.neighbour[slot] != i &&
             is_cut(families->position[i], families->position[bonds.neighbour[slot]]))
           {
-            remove(slot);
-            volumes.add(volumes.cut, i, bonds.neighbour[slot]);
-            this->lost.push_back({slot, i, bonds.neighbour[slot]});
+            break_bond(slot, i, true);
             ends += bonds.neighbour[slot] < families->n_owned() ? 2 : 1;
           }
     n_lost.cut = this->lost.size();
     return dealii::Utilities::MPI::sum(ends, families->communicator) / 2;
-  }
-
-  template <int dim>
-  void BreakingBonds<dim>::remove(const BondIndex slot)
-  {
-    clear_weights(slot);
-    if (!critical_stretch.empty())
-      critical_stretch[slot] = never;
   }
 
   template <int dim>
@@ -239,11 +146,13 @@ namespace perideal
   }
 
   template <int dim>
-  void BreakingBonds<dim>::break_bond(const BondIndex slot, const LocalIndex near)
+  void BreakingBonds<dim>::break_bond(const BondIndex slot, const LocalIndex near, const bool is_cut)
   {
     this->lost.push_back({slot, near, bonds.neighbour[slot]});
-    remove(slot);
-    volumes.add(volumes.broken, near, bonds.neighbour[slot]);
+    clear_weights(slot);
+    if (!critical_stretch.empty())
+      critical_stretch[slot] = never;
+    volumes.add(is_cut ? volumes.cut : volumes.broken, near, bonds.neighbour[slot]);
   }
 
   template <int dim>
@@ -330,11 +239,8 @@ namespace perideal
     for (const BondEnds &ends : broken)
       {
         const BondIndex slot = bonds.find(ends.near, ends.far);
-        if (slot == BondList::no_slot || !carries_force(slot))
-          continue;
-        this->lost.push_back({slot, ends.near, ends.far});
-        remove(slot);
-        volumes.add(volumes.broken, ends.near, ends.far);
+        if (slot != BondList::no_slot && carries_force(slot))
+          break_bond(slot, ends.near);
       }
   }
 
@@ -348,7 +254,7 @@ namespace perideal
           {
             const double limit =
               critical_stretch[slot] / (unknown.contains(slot) ? UnknownLimits::share_of_limit : 1.);
-            const double share       = stretch(i, slot) / limit;
+            const double share = stretch_between<dim>(position[i], position[j], rest_length[slot]) / limit;
             largest.local_element(i) = std::max(largest.local_element(i), share);
             // A bond that the partition cuts is looked at from its other end, too.
             if (j < families->n_owned())

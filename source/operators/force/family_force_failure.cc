@@ -37,7 +37,7 @@ namespace perideal
     for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
       {
         const BondIndex slot = first_slot + lane;
-        if (!(excess[lane] > 0) || this->is_unknown(slot))
+        if (!(excess[lane] > 0) || this->unknown.holds(slot))
           continue;
         BrokenBond bond;
         bond.slot      = slot;

@@ -50,14 +50,10 @@ namespace perideal
       for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
         for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
           {
-            const LocalIndex j      = bonds.neighbour[slot];
-            double           square = 0;
-            for (int d = 0; d < dim; ++d)
-              {
-                const double along = position[j].value[d] - position[i].value[d];
-                square += along * along;
-              }
-            if (std::sqrt(square) - rest_length[slot] > critical_stretch[slot] * rest_length[slot])
+            const LocalIndex j = bonds.neighbour[slot];
+            // Padding has a bond of no length.
+            if (j != i &&
+                stretch_between<dim>(position[i], position[j], rest_length[slot]) > critical_stretch[slot])
               return true;
           }
       return false;

@@ -3,6 +3,7 @@
 perideal_room(operators/force
   SOURCES
     breaking_bonds.cc
+    breaking_bonds_limits.cc
     breaking_bonds_start.cc
     contact_parameters.cc
     fracture_zone.cc

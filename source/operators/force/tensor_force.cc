@@ -49,7 +49,7 @@ namespace perideal
   void TensorForce<dim>::break_bonds(const LocalIndex i, const BondIndex first_slot, const Lanes &margin)
   {
     for (unsigned int lane = 0; lane < BondList::n_lanes && this->can_break(); ++lane)
-      if (const BondIndex slot = first_slot + lane; margin[lane] < 0 && !this->is_unknown(slot))
+      if (const BondIndex slot = first_slot + lane; margin[lane] < 0 && !this->unknown.holds(slot))
         {
           const auto whole = tensor(slot);
           const auto change =

@@ -10,12 +10,26 @@
 
 #include <deal.II/base/aligned_vector.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace perideal
 {
+  /// Returns the stretch of a bond between two positions [-].
+  template <int dim>
+  double stretch_between(const NodeRecord &near, const NodeRecord &far, const double rest_length)
+  {
+    double square = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double along = far.value[d] - near.value[d];
+        square += along * along;
+      }
+    return std::sqrt(square) / rest_length - 1.;
+  }
+
   /**
    * Holds what every BondForce has besides the forces: the present positions of the nodes, the bonds with
    * their lengths at rest, the stretches at which they break, and which of them broke.
@@ -94,10 +108,8 @@ namespace perideal
                     dealii::AlignedVector<NodeRecord> *records = nullptr,
                     const std::vector<LocalIndex>     *some    = nullptr);
 
-    /// Whether it is not known yet if a bond beyond its limit fails.
-    bool is_unknown(const BondIndex slot) { return unknown.holds(slot); }
-    /// Finds out the limits of bonds that is_unknown() was asked about, and of more. Returns whether there
-    /// were such: what fails is then to be looked at again. Collective.
+    /// Finds out the limits that were asked for since the last call, and more. Returns whether there were
+    /// such: what fails is then to be looked at again. Collective.
     /// @param anyway whether all bonds are looked at even so
     bool find_out_limits(const bool anyway = false);
 
@@ -105,8 +117,8 @@ namespace perideal
     /// weights.
     SofteningBonds::Change overstretch(const BondIndex slot, const LocalIndex near, const double stretch);
 
-    /// Breaks a bond, the weights of which the caller has looked at.
-    void break_bond(const BondIndex slot, const LocalIndex near);
+    /// Takes out a bond, the weights of which the caller has looked at: it breaks, or is cut.
+    void break_bond(const BondIndex slot, const LocalIndex near, const bool is_cut = false);
 
     std::size_t breaking_memory() const;
 
@@ -118,17 +130,11 @@ namespace perideal
     std::vector<double> rest_length;
     /// Stretches beyond which bonds break or go on to soften, by slot; empty where nothing breaks.
     std::vector<float>                critical_stretch;
+    UnknownLimits                     unknown;
     RestRegions                       regions;
     dealii::AlignedVector<NodeRecord> position, forces;
 
   private:
-    /// Takes out a bond: its weights and its limit.
-    void remove(const BondIndex slot);
-
-    /// The present stretch of a bond of a node [-].
-    double stretch(const LocalIndex i, const BondIndex slot) const;
-
-    UnknownLimits    unknown;
     Judgement        judgement = Judgement::for_good;
     LostVolumes<dim> volumes;
     /// Of the lost bonds, those that were cut at the beginning, and those lost before the last compute().
