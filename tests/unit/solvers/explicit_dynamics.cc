@@ -84,6 +84,40 @@ TEST(ExplicitDynamics, OscillatesAsTwoNodesDo)
     }
 }
 
+/// Where steps are divided the velocities of half a step before become those of half a new one: the energy of
+/// leapfrog is then, to second order, what it was.
+TEST(ExplicitDynamics, DividesItsSteps)
+{
+  using Start     = ExplicitDynamics<2>::Start;
+  const auto mesh = test::make_box<2>({5, 4}, {1., 0.8}, 0.1);
+  const auto jump = [&](const double dt) {
+    MovingBody moving(*mesh, "bond based", {}, 3.01);
+    auto       before = moving.dynamics(dt);
+    for (LocalIndex i = 0; i < moving.body.nodes.size(); ++i)
+      for (int d = 0; d < 2; ++d)
+        before.velocity.local_element(2 * i + d) = 3e-4 * test::scatter(moving.body.nodes.position[i], d);
+    const auto energy = [](const ExplicitDynamics<2> &dynamics) {
+      return dynamics.energy().kinetic + dynamics.energy().strain;
+    };
+    for (double t = 0; t < 0.5; t += dt)
+      {
+        before.evaluate(moving.no_load);
+        before.advance();
+      }
+    auto after         = moving.dynamics(dt / 4., Start::symplectic_euler);
+    after.displacement = before.displacement;
+    after.velocity     = before.velocity;
+    after.divide_steps(4);
+    before.evaluate(moving.no_load);
+    const double of_before = energy(before);
+    after.evaluate(moving.no_load);
+    return std::abs(energy(after) / of_before - 1.);
+  };
+  const double coarse = jump(0.02), fine = jump(0.01);
+  EXPECT_LE(coarse, 1e-3);
+  EXPECT_LE(fine, 0.35 * coarse);
+}
+
 /// A free body that vibrates for 100,000 steps keeps its energy, momentum and angular momentum.
 TEST(ExplicitDynamics, ConservesOverManySteps)
 {
