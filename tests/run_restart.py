@@ -113,6 +113,14 @@ def check(runs):
         runs.run(f"adapting {step}", overrides=adapting + ["Checkpoints/Restart=true"])
         runs.expect_same_bits(f"adapting {step}", "adapting whole")
 
+    # More ranks go on through two changes of the mesh.
+    runs.run("adapting on one", overrides=adapting + ["Solver/End time=38.4e-6"])
+    runs.run("adapting", overrides=adapting + ["Solver/End time=32e-6", "Checkpoints/Steps=195"])
+    more = adapting + ["Solver/End time=38.4e-6", "Checkpoints/Restart=true"]
+    if "adaptation  2:" not in runs.run("adapting", ranks=2, overrides=more):
+        raise Failure("the mesh did not change twice when another number of ranks went on")
+    runs.expect_close("adapting", "adapting on one", 1e-10)
+
     # Killed while it writes, again and again, at moments of chance.
     for step in (40, 110, 170, 230):
         restart = ["Checkpoints/Restart=true"] if step > 40 else []

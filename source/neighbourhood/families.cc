@@ -221,6 +221,7 @@ namespace perideal
     keep_used(horizon, n_owned_nodes);
     keep_used(shape, n_owned_nodes);
     keep_used(spacing, n_owned_nodes);
+    keep_used(finest, n_owned_nodes);
     keep_used(cell_radius, n_owned_nodes);
     keep_used(cell, n_owned_nodes);
     keep_used(material, n_owned_nodes);
