@@ -289,9 +289,12 @@ namespace perideal
       {
         done              = resumed->template get<unsigned int>("step");
         const double time = resumed->template get<double>("time");
-        this->resume_checkpoint();
-        apply_loads(time);
-        path->resume(problem.state.external_force, time);
+        {
+          const Timings::Scope scope(problem.run.timings, "setup");
+          this->resume_checkpoint();
+          apply_loads(time);
+          path->resume(problem.state.external_force, time);
+        }
         if (this->mesh_has_changed)
           come_to_rest(time);
       }

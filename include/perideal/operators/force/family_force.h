@@ -7,7 +7,6 @@
 #include <perideal/operators/force/levelled_force.h>
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <vector>
 
