@@ -51,11 +51,13 @@ namespace perideal
                               const double                 largest_energy,
                               const double                 stable_step)
   {
-    std::string reason;
+    // Which knows the steps of rows only; frames are measured between.
+    const double largest = std::max({largest_energy, std::abs(energy.external), energy.kinetic});
+    std::string  reason;
     if (!std::isfinite(energy.kinetic) || !std::isfinite(energy.strain))
       reason = "the motion is not finite";
     // Bonds that break may keep a motion finite that is none. At the very beginning, energies are small.
-    else if (largest_energy > 0 && std::abs(energy.imbalance()) > 0.5 * largest_energy)
+    else if (largest_energy > 0 && std::abs(energy.imbalance()) > 0.5 * largest)
       ++rows_without_balance;
     else
       rows_without_balance = 0;

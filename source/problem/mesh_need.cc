@@ -36,6 +36,38 @@ namespace perideal
       return result;
     }
 
+    /// Middles of the parts of owned cells where a formula is not zero, which are as small as cells will be
+    /// but a quarter of these at least.
+    template <int dim>
+    Places<dim> parts_where(const SpaceTimeFunction<dim> &where,
+                            const double                  time,
+                            const Mesh<dim>              &mesh,
+                            const unsigned int            levels)
+    {
+      // A part touches no other.
+      constexpr double within_part = 0.49;
+      Places<dim>      result;
+      if (!where.is_present())
+        return result;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const unsigned int n       = 1u << std::min(2u, levels - std::min(levels, halvings(mesh, cell)));
+            unsigned int       n_parts = 1;
+            for (int d = 0; d < dim; ++d)
+              n_parts *= n;
+            for (unsigned int part = 0; part < n_parts; ++part)
+              {
+                dealii::Point<dim> unit;
+                for (unsigned int d = 0, rest = part; d < dim; ++d, rest /= n)
+                  unit[d] = (rest % n + 0.5) / n;
+                if (const auto middle = cell->intermediate_point(unit); where.value(middle, time) != 0.)
+                  result.emplace_back(middle, within_part * cell->minimum_vertex_distance() / n);
+              }
+          }
+      return result;
+    }
+
     /// Boxes around places of all ranks, as far as a factor of their reach. Collective.
     template <int dim>
     dealii::RTree<dealii::BoundingBox<dim>>
@@ -87,6 +119,7 @@ namespace perideal
         places.emplace_back(point, smallest);
     within_reach = boxes_around<dim>(places, 1., communicator);
     urgent       = boxes_around<dim>(places, 0.5, communicator);
+    of_formula   = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
   }
 
   template <int dim>
@@ -104,8 +137,9 @@ namespace perideal
     namespace bgi = boost::geometry::index;
     auto box      = cell->bounding_box();
     box.extend(margin);
-    return boxes.qbegin(bgi::intersects(box)) != boxes.qend() ||
-           (where.is_present() && where.value(cell->center(), time) != 0.);
+    const auto is_near = [&](const Boxes &all) { return all.qbegin(bgi::intersects(box)) != all.qend(); };
+    return is_near(boxes) || (where.is_present() && (where.value(cell->center(), time) != 0. ||
+                                                     (margin > 0 && is_near(of_formula))));
   }
 
   PERIDEAL_INSTANTIATE_CLASS(MeshNeed)

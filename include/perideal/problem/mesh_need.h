@@ -48,7 +48,9 @@ namespace perideal
     unsigned int           levels;
     /// layers_between_sizes().
     double layers;
-    Boxes  within_reach, urgent;
+    /// Around nodes and edges; and where the formula says so, in parts of cells of the mesh that was looked
+    /// at.
+    Boxes within_reach, urgent, of_formula;
   };
 } // namespace perideal
 
