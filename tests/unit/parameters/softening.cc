@@ -46,6 +46,23 @@ TEST(Softening, TakesAsMuchAsBreakingAtOnce)
       }
 }
 
+TEST(Softening, FollowsABondAsItOpens)
+{
+  for (const char *name : {"linear", "bilinear", "exponential"})
+    for (const unsigned int n : {7u, 1000u})
+      {
+        SCOPED_TRACE(name);
+        const SofteningLaw    law((Softening(name)));
+        const double          first = s_d / 2., last = law.last(first, s_d * s_d);
+        SofteningLaw::Opening opening(law, first, s_d * s_d);
+        for (unsigned int k = 1; k <= n; ++k)
+          {
+            const double stretch = first + (1.1 * last - first) * k / n;
+            EXPECT_NEAR(opening.carried(stretch), law.carried(stretch, first, s_d * s_d), 1e-13);
+          }
+      }
+}
+
 TEST(Softening, TellsWhichBondsWouldSnapBack)
 {
   const SofteningLaw linear("linear"), bilinear("bilinear"), none("none");
