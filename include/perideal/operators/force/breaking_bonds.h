@@ -103,7 +103,8 @@ namespace perideal
 
     /// Takes the displacement; from here on bonds break now. Collective.
     /// @param records of the local nodes, which get the displacement itself where a force needs it; may be
-    /// null @param some owned nodes beyond which none has moved since the last call; null: any may
+    /// null
+    /// @param some owned nodes beyond which none has moved since the last call; null: any may
     void move_nodes(const NodalVector                 &displacement,
                     dealii::AlignedVector<NodeRecord> *records = nullptr,
                     const std::vector<LocalIndex>     *some    = nullptr);
