@@ -39,19 +39,15 @@ namespace perideal
   {
     for (NodalVector *vector : {&external, &later, &of_loads, &by_secant, &by_tangent, &first_residual})
       vector->reinit(this->residual);
-    for (NodalVector *vector : {&start.displacement, &previous.motion})
-      this->bonds.initialize(*vector);
+    this->bonds.initialize(start.displacement);
   }
 
   template <int dim>
   void ControlledNewton<dim>::register_state(LastingState &state)
   {
     NewtonSolver<dim>::register_state(state);
-    state.add_node_array("motion of the last load step", "m", dim, previous.motion);
     state.add_node_array("displacement by unit loads", "m", dim, by_secant);
     state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_tangent);
-    state.add_value("load factor", previous.time);
-    state.add_value("change of the load factor", previous.time_change);
     state.add_value("controlled amount", previous.amount);
     state.add_value("change of what is controlled by unit load factor", previous.by_time);
   }
@@ -130,7 +126,8 @@ namespace perideal
               {
                 last.note(norms);
                 this->balance(external, this->force, this->bonds.strain_energy());
-                keep_step(change);
+                this->keep_step(now);
+                keep_amount(change);
                 result.converged = true;
                 return result;
               }
@@ -163,9 +160,9 @@ namespace perideal
   void ControlledNewton<dim>::predict(const double amount)
   {
     const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
-    start              = {displacement, previous.time + ahead * previous.time_change};
+    start              = {displacement, last_step.time + ahead * last_step.time_change};
     this->correction   = 0.;
-    start.displacement.add(ahead, previous.motion);
+    start.displacement.add(ahead, last_step.motion);
     place(0., 0.);
   }
 
@@ -189,18 +186,15 @@ namespace perideal
     if (result.converged)
       {
         now = time;
-        keep_step(control.gauge ? changed() : this->energy().dissipated - before);
+        keep_amount(control.gauge ? changed() : this->energy().dissipated - before);
       }
     return result;
   }
 
   template <int dim>
-  void ControlledNewton<dim>::keep_step(const double change)
+  void ControlledNewton<dim>::keep_amount(const double change)
   {
-    previous.motion      = this->increment;
-    previous.time_change = now - previous.time;
-    previous.time        = now;
-    previous.amount      = change;
+    previous.amount = change;
     previous.reading += change;
   }
 
@@ -208,14 +202,14 @@ namespace perideal
   void ControlledNewton<dim>::go_back()
   {
     this->restore();
-    now = previous.time;
+    now = last_step.time;
   }
 
   template <int dim>
   bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
   {
     const bool secant = slope == Slope::secant, searches = !secant && this->bonds.softening_bonds().softens();
-    this->tangent.linearise(this->bonds, secant);
+    this->linearise(slope);
     start = {displacement, now};
     prepare_loads();
     const double norm   = this->residual.l2_norm();

@@ -77,7 +77,7 @@ namespace perideal
   EquilibriumStep
   EquilibriumPath<dim>::step(const NodalVector &external, const double time, const Progress &progress)
   {
-    start_step(time);
+    start_step(external, time);
     increment      = 0.;
     breaks.in_step = false;
     EquilibriumStep result;
@@ -127,6 +127,7 @@ namespace perideal
           {
             last.note(norms);
             balance(external, force, bonds.strain_energy());
+            keep_step(time);
             result.converged = true;
             return result;
           }

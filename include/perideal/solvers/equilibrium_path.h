@@ -129,8 +129,10 @@ namespace perideal
       double residual, reaction, load;
     };
 
-    /// Begins a step; the forces are computed next.
-    virtual void start_step(const double time) = 0;
+    /// Begins a step; the forces are computed next. Collective.
+    virtual void start_step(const NodalVector &external, const double time) = 0;
+    /// After a step that came to an equilibrium.
+    virtual void keep_step(const double) {}
     /// Norms at the present state. Collective.
     virtual Norms measure(const NodalVector &external) = 0;
     /// False while held components are not yet where they belong.
