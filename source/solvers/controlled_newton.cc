@@ -126,7 +126,7 @@ namespace perideal
               {
                 last.note(norms);
                 this->balance(external, this->force, this->bonds.strain_energy());
-                this->keep_step(now);
+                last.note_step(this->increment, now);
                 keep_amount(change);
                 result.converged = true;
                 return result;
@@ -160,9 +160,9 @@ namespace perideal
   void ControlledNewton<dim>::predict(const double amount)
   {
     const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
-    start              = {displacement, last_step.time + ahead * last_step.time_change};
+    start              = {displacement, last.time + ahead * last.time_change};
     this->correction   = 0.;
-    start.displacement.add(ahead, last_step.motion);
+    start.displacement.add(ahead, last.motion);
     place(0., 0.);
   }
 
@@ -202,7 +202,7 @@ namespace perideal
   void ControlledNewton<dim>::go_back()
   {
     this->restore();
-    now = last_step.time;
+    now = last.time;
   }
 
   template <int dim>

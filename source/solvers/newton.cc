@@ -46,8 +46,7 @@ namespace perideal
     , null_space(null_space)
     , anchors{find_floating, {}, {}, 0}
   {
-    for (NodalVector *vector :
-         {&held_increment, &searching.start, &last_step.motion, &anchors.rest_stiffness, &anchors.place})
+    for (NodalVector *vector : {&held_increment, &searching.start, &anchors.rest_stiffness, &anchors.place})
       bonds.initialize(*vector);
     system.initialize(residual);
     system.initialize(correction);
@@ -87,9 +86,6 @@ namespace perideal
   {
     EquilibriumPath<dim>::register_state(state);
     linear.register_state(state);
-    state.add_node_array("motion of the last load step", "m", dim, last_step.motion);
-    state.add_value("end of the last load step", last_step.time);
-    state.add_value("change of t in the last load step", last_step.time_change);
     if (!anchors.find_floating)
       return;
     state.add_value("floating nodes", anchors.n_nodes);
@@ -130,11 +126,11 @@ namespace perideal
   template <int dim>
   bool NewtonSolver<dim>::start_along_last_step(const NodalVector &external, const double time)
   {
-    const double ahead = (time - last_step.time) / last_step.time_change;
+    const double ahead = (time - this->last.time) / this->last.time_change;
     if (!this->bonds.softening_bonds().softens() || this->breaks.wait ||
-        !(last_step.time_change > 0 && ahead > 0 && ahead <= longest_start))
+        !(this->last.time_change > 0 && ahead > 0 && ahead <= longest_start))
       return false;
-    displacement.add(ahead, last_step.motion);
+    displacement.add(ahead, this->last.motion);
     held.set_boundary_values(this->loads, time, displacement);
     if (this->face_values != nullptr)
       this->face_values->set_time(this->loads, time);
@@ -144,20 +140,6 @@ namespace perideal
       return true;
     this->restore();
     return false;
-  }
-
-  template <int dim>
-  void NewtonSolver<dim>::keep_step(const double time)
-  {
-    // Where bonds have taken the place of cells, equilibrium is sought twice.
-    if (time == last_step.time)
-      {
-        last_step.motion += this->increment;
-        return;
-      }
-    last_step.motion      = this->increment;
-    last_step.time_change = time - last_step.time;
-    last_step.time        = time;
   }
 
   template <int dim>

@@ -72,8 +72,8 @@ namespace perideal
 
     /// Factor of the loads at the last equilibrium, and by how much the controlled quantity grew in the step
     /// that led there.
-    double time() const { return last_step.time; }
-    double time_change() const { return last_step.time_change; }
+    double time() const { return last.time; }
+    double time_change() const { return last.time_change; }
     double amount() const { return previous.amount; }
 
     /// From now on a step by load() fails where it dissipates more [J].
@@ -109,7 +109,6 @@ namespace perideal
 
     using EquilibriumPath<dim>::held;
     using EquilibriumPath<dim>::last;
-    using NewtonSolver<dim>::last_step;
 
     const Control control;
     double        most_by_loads = std::numeric_limits<double>::infinity();

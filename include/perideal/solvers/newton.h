@@ -76,7 +76,6 @@ namespace perideal
   protected:
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
     void                                 forget_motion() override { anchor(); }
-    void                                 keep_step(const double time) override;
 
     /// What the tangent has of bonds that soften.
     enum class Slope
@@ -109,14 +108,6 @@ namespace perideal
     NodalVector               held_increment, residual, correction;
     /// Whether bonds that soften may jump to an equilibrium far off.
     bool may_jump = true;
-
-    /// The step to the last equilibrium: the motion [m], where it ended and by how much it changed t.
-    struct LastStep
-    {
-      NodalVector motion;
-      double      time = 0, time_change = 0;
-    };
-    LastStep last_step;
 
   private:
     void start_step(const NodalVector &external, const double time) override;
