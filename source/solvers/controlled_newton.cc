@@ -39,15 +39,19 @@ namespace perideal
   {
     for (NodalVector *vector : {&external, &later, &of_loads, &by_secant, &by_tangent, &first_residual})
       vector->reinit(this->residual);
-    this->bonds.initialize(start.displacement);
+    for (NodalVector *vector : {&start.displacement, &previous.motion})
+      this->bonds.initialize(*vector);
   }
 
   template <int dim>
   void ControlledNewton<dim>::register_state(LastingState &state)
   {
     NewtonSolver<dim>::register_state(state);
+    state.add_node_array("motion of the last load step", "m", dim, previous.motion);
     state.add_node_array("displacement by unit loads", "m", dim, by_secant);
     state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_tangent);
+    state.add_value("load factor", previous.time);
+    state.add_value("change of the load factor", previous.time_change);
     state.add_value("controlled amount", previous.amount);
     state.add_value("change of what is controlled by unit load factor", previous.by_time);
   }
@@ -126,8 +130,7 @@ namespace perideal
               {
                 last.note(norms);
                 this->balance(external, this->force, this->bonds.strain_energy());
-                last.note_step(this->increment, now);
-                keep_amount(change);
+                keep_step(change);
                 result.converged = true;
                 return result;
               }
@@ -160,9 +163,9 @@ namespace perideal
   void ControlledNewton<dim>::predict(const double amount)
   {
     const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
-    start              = {displacement, last.time + ahead * last.time_change};
+    start              = {displacement, previous.time + ahead * previous.time_change};
     this->correction   = 0.;
-    start.displacement.add(ahead, last.motion);
+    start.displacement.add(ahead, previous.motion);
     place(0., 0.);
   }
 
@@ -186,15 +189,18 @@ namespace perideal
     if (result.converged)
       {
         now = time;
-        keep_amount(control.gauge ? changed() : this->energy().dissipated - before);
+        keep_step(control.gauge ? changed() : this->energy().dissipated - before);
       }
     return result;
   }
 
   template <int dim>
-  void ControlledNewton<dim>::keep_amount(const double change)
+  void ControlledNewton<dim>::keep_step(const double change)
   {
-    previous.amount = change;
+    previous.motion      = this->increment;
+    previous.time_change = now - previous.time;
+    previous.time        = now;
+    previous.amount      = change;
     previous.reading += change;
   }
 
@@ -202,14 +208,14 @@ namespace perideal
   void ControlledNewton<dim>::go_back()
   {
     this->restore();
-    now = last.time;
+    now = previous.time;
   }
 
   template <int dim>
   bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
   {
     const bool secant = slope == Slope::secant, searches = !secant && this->bonds.softening_bonds().softens();
-    this->linearise(slope);
+    this->tangent.linearise(this->bonds, secant);
     start = {displacement, now};
     prepare_loads();
     const double norm   = this->residual.l2_norm();

@@ -79,7 +79,7 @@ namespace perideal
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::start_step(const NodalVector &, const double time)
+  void DynamicRelaxation<dim>::start_step(const double time)
   {
     if (!this->breaks.in_step && last_interval > 0)
       displacement.add((time - last_time) / last_interval, this->increment);

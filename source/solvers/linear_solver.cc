@@ -68,34 +68,6 @@ namespace perideal
       const NullSpace<dim>           &null_space;
     };
 
-    /// The system of a search for descent, where CG is to end before a direction along which the operator is
-    /// not positive.
-    template <int dim>
-    struct DescentSystem
-    {
-      struct NotPositive
-      {
-      };
-
-      void vmult(NodalVector &destination, const NodalVector &source) const
-      {
-        system.vmult(destination, source);
-        if (source * destination <= 0)
-          {
-            // The first direction descends, whatever its curvature.
-            if (n_directions == 0)
-              solution = source;
-            throw NotPositive();
-          }
-        ++n_directions;
-      }
-
-      const BalancedSystem<dim> system;
-      /// Zero at the beginning.
-      NodalVector         &solution;
-      mutable unsigned int n_directions = 0;
-    };
-
     /// deal.II's CG or GMRES on the matrix-free operator.
     template <int dim, typename Preconditioner>
     class KrylovSolver : public LinearSolver<dim>
@@ -106,7 +78,6 @@ namespace perideal
                    const ConstrainedOperator<dim> &system,
                    const NullSpace<dim>           &null_space,
                    std::unique_ptr<Preconditioner> preconditioner,
-                   const bool                      chooses,
                    const bool                      symmetric)
         : LinearSolver<dim>(parameters.tolerance)
         , parameters(parameters)
@@ -114,7 +85,6 @@ namespace perideal
         , system(system)
         , null_space(null_space)
         , preconditioner(std::move(preconditioner))
-        , chooses(chooses)
         , symmetric(symmetric)
       {
       }
@@ -129,8 +99,8 @@ namespace perideal
         const ProjectedPreconditioner<dim, Preconditioner> projected(*preconditioner, null_space);
         try
           {
-            if (chooses ? system.is_symmetric() : symmetric)
-              run_cg(result, control, monitor, solution, source, projected);
+            if (symmetric)
+              run_cg(control, monitor, solution, source, projected);
             else
               run_gmres(control, monitor, solution, source, projected);
             result.converged = true;
@@ -154,8 +124,7 @@ namespace perideal
 
     private:
       template <typename Projected>
-      void run_cg(LinearSolve           &result,
-                  dealii::SolverControl &control,
+      void run_cg(dealii::SolverControl &control,
                   Monitor               &monitor,
                   NodalVector           &solution,
                   const NodalVector     &source,
@@ -164,20 +133,7 @@ namespace perideal
         dealii::SolverCG<NodalVector> cg(control);
         cg.connect(monitor);
         cg.connect_coefficients_slot([&](const double length, const double) { monitor.judge_step(length); });
-        const BalancedSystem<dim> balanced{system, null_space};
-        if (!this->descends)
-          {
-            cg.solve(balanced, solution, source, projected);
-            return;
-          }
-        try
-          {
-            cg.solve(DescentSystem<dim>{balanced, solution}, solution, source, projected);
-          }
-        catch (const typename DescentSystem<dim>::NotPositive &)
-          {
-            result.indefinite = true;
-          }
+        cg.solve(BalancedSystem<dim>{system, null_space}, solution, source, projected);
       }
 
       template <typename Projected>
@@ -199,8 +155,7 @@ namespace perideal
       const ConstrainedOperator<dim> &system;
       const NullSpace<dim>           &null_space;
       std::unique_ptr<Preconditioner> preconditioner;
-      /// Whether it takes CG where the system is symmetric when it is solved; what was chosen.
-      bool chooses, symmetric;
+      bool                            symmetric;
     };
 
     /// Trilinos' own solvers on the assembled matrix.
@@ -309,14 +264,8 @@ namespace perideal
                              parameters.linear_solver == LinearSolverName::cg;
     const auto krylov    = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
       using Preconditioner = typename decltype(preconditioner)::element_type;
-      return std::make_unique<KrylovSolver<dim, Preconditioner>>(parameters,
-                                                                 choice,
-                                                                 system,
-                                                                 null_space,
-                                                                 std::move(preconditioner),
-                                                                 parameters.linear_solver ==
-                                                                   LinearSolverName::automatic,
-                                                                 symmetric);
+      return std::make_unique<KrylovSolver<dim, Preconditioner>>(
+        parameters, choice, system, null_space, std::move(preconditioner), symmetric);
     };
     if (choice.preconditioner == PreconditionerName::none)
       return krylov(std::make_unique<dealii::PreconditionIdentity>());

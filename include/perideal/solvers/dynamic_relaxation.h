@@ -58,7 +58,7 @@ namespace perideal
       double d_K_d, d_M_d;
     };
 
-    void                                 start_step(const NodalVector &external, const double time) override;
+    void                                 start_step(const double time) override;
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
     bool iterate(const NodalVector &external, EquilibriumStep &result) override;
     void forget_motion() override;

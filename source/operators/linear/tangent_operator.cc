@@ -4,8 +4,6 @@
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/linear/tensor_operator.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -36,32 +34,18 @@ namespace perideal
         const BondList       &bonds     = weights->bonds;
         const SofteningBonds &softening = force.softening_bonds();
         BondIndex             slot      = 0;
-        goes_on                         = false;
-        deformation.scale_in_sums.clear();
-        if (n_sums > 0 && softening.softens() && !secant)
-          deformation.scale_in_sums.resize(deformation.scale.size());
         force.visit_bond_forces(
           [&](const LocalIndex i, const LocalIndex j, const dealii::Tensor<1, dim> &pull) {
             while (bonds.neighbour[slot] != j || slot < bonds.row[i])
               ++slot; // padding
             set_bond(slot, i, j, pull);
-            if (!deformation.scale_in_sums.empty())
-              deformation.scale_in_sums[slot] = deformation.scale[slot];
             if (softening.softens())
               soften(slot, softening.left(slot, 1. / deformation.scale[slot] - 1.), secant);
             ++slot;
           });
         for (const auto &bond : force.lost_bonds())
           deformation.scale[bond.slot] = deformation.tension[bond.slot] = 0.;
-        if (deformation.scale_in_sums.empty())
-          return;
-        for (const auto &bond : force.lost_bonds())
-          deformation.scale_in_sums[bond.slot] = 0.;
-        if (dealii::Utilities::MPI::max(goes_on ? 1u : 0u, families->communicator) == 0)
-          deformation.scale_in_sums.clear();
       }
-
-      bool is_symmetric() const override { return weights->symmetric && deformation.scale_in_sums.empty(); }
 
     private:
       using Loops::deformation;
@@ -97,24 +81,12 @@ namespace perideal
         const double by_length = deformation.stiffness[slot] - whole; // -tension/|xi|^2
         deformation.scale[slot] *= left.share;
         if (left.share == 0.)
-          {
-            if (!deformation.scale_in_sums.empty())
-              deformation.scale_in_sums[slot] = 0.;
-            return;
-          }
-        const double slope = secant ? 0. : left.slope;
-        double       along = left.stiffness * whole + by_length;
-        if (tension > 0)
-          along += -by_length * stretched / left.share * slope;
-        deformation.stiffness[slot] = along / (left.share * left.share);
-        if (deformation.scale_in_sums.empty())
           return;
-        deformation.scale_in_sums[slot] *= left.share + slope * (stretched - 1.);
-        goes_on = goes_on || slope != 0.;
+        double along = left.stiffness * whole + by_length;
+        if (!secant && tension > 0)
+          along += -by_length * stretched / left.share * left.slope;
+        deformation.stiffness[slot] = along / (left.share * left.share);
       }
-
-      /// Whether a bond of this rank goes on to soften.
-      bool goes_on = false;
     };
 
     /// The tangent of TensorForce, which is linear: only the lost bonds are missing.

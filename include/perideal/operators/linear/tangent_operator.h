@@ -20,10 +20,7 @@ namespace perideal
    *
    * where the sums of families change by d s_a = sum_j sum[a]_j p.(du_j - du_i). Bonds that were cut or
    * broke carry nothing. A bond that softens adds m dg/deps/g p.(du_j - du_i) p with the share g of its
-   * weights that is left; the sums of its families, which have g of it, change by g + eps dg/deps of its
-   * p.(du_j - du_i). So the tangent of a model with sums is not symmetric while bonds soften: that bond
-   * counts less in its neighbours' forces, but they do not count less in its own. Bond tensors have the
-   * secant alone.
+   * weights that is left; what it takes from the sums of its families meanwhile is left out.
    *
    * The weights are in double precision, those of the force in single: the tangent is exact up to the
    * rounding of the latter.
