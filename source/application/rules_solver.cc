@@ -157,11 +157,7 @@ namespace perideal
         "Solver/Linear solver",
         "Solver/Linear solver = cg | trilinos cg, with Material/Form = paper, Quadrature/Scheme = gauss "
         "points or Boundary conditions/Traction treatment = taylor ghosts",
-        [](const Scene &s) {
-          return solves_equations(s) && is_unsymmetric(s) &&
-                 (s.solver.linear_solver == LinearSolverName::cg ||
-                  s.solver.linear_solver == LinearSolverName::trilinos_cg);
-        },
+        [](const Scene &s) { return solves_equations(s) && is_unsymmetric(s) && s.solver.takes_cg(); },
         "the operator of this scene is not symmetric",
         "automatic | gmres | trilinos gmres | direct"),
       refuse(

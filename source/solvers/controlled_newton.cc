@@ -26,6 +26,8 @@ namespace perideal
     constexpr double least_left = 1e-6;
     /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
     constexpr unsigned int first_secants = 8, more_secants = 5;
+    /// Iterations that may pass before the residual is half of what it was.
+    constexpr unsigned int most_without_progress = 10;
     /// Trials of an iteration by the tangent, each half as long as the one before.
     constexpr unsigned int n_trials = 2;
     /// What the residual after such an iteration may be over that before.
@@ -39,19 +41,15 @@ namespace perideal
   {
     for (NodalVector *vector : {&external, &later, &of_loads, &by_secant, &by_tangent, &first_residual})
       vector->reinit(this->residual);
-    for (NodalVector *vector : {&start.displacement, &previous.motion})
-      this->bonds.initialize(*vector);
+    this->bonds.initialize(start.displacement);
   }
 
   template <int dim>
   void ControlledNewton<dim>::register_state(LastingState &state)
   {
     NewtonSolver<dim>::register_state(state);
-    state.add_node_array("motion of the last load step", "m", dim, previous.motion);
     state.add_node_array("displacement by unit loads", "m", dim, by_secant);
     state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_tangent);
-    state.add_value("load factor", previous.time);
-    state.add_value("change of the load factor", previous.time_change);
     state.add_value("controlled amount", previous.amount);
     state.add_value("change of what is controlled by unit load factor", previous.by_time);
   }
@@ -130,19 +128,20 @@ namespace perideal
               {
                 last.note(norms);
                 this->balance(external, this->force, this->bonds.strain_energy());
-                keep_step(change);
+                last.note_step(this->increment, now);
+                keep_amount(change);
                 result.converged = true;
                 return result;
               }
             since_progress = 0;
             continue;
           }
-        if (residual < 0.1 * least_residual)
+        if (residual < 0.5 * least_residual)
           {
             least_residual = residual;
             since_progress = 0;
           }
-        if (since_progress++ == this->controls.max_iterations)
+        if (since_progress++ == std::min(most_without_progress, this->controls.max_iterations))
           return result;
         ++result.iterations;
         if (n_secants > 0)
@@ -163,9 +162,9 @@ namespace perideal
   void ControlledNewton<dim>::predict(const double amount)
   {
     const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
-    start              = {displacement, previous.time + ahead * previous.time_change};
+    start              = {displacement, last.time + ahead * last.time_change};
     this->correction   = 0.;
-    start.displacement.add(ahead, previous.motion);
+    start.displacement.add(ahead, last.motion);
     place(0., 0.);
   }
 
@@ -189,18 +188,15 @@ namespace perideal
     if (result.converged)
       {
         now = time;
-        keep_step(control.gauge ? changed() : this->energy().dissipated - before);
+        keep_amount(control.gauge ? changed() : this->energy().dissipated - before);
       }
     return result;
   }
 
   template <int dim>
-  void ControlledNewton<dim>::keep_step(const double change)
+  void ControlledNewton<dim>::keep_amount(const double change)
   {
-    previous.motion      = this->increment;
-    previous.time_change = now - previous.time;
-    previous.time        = now;
-    previous.amount      = change;
+    previous.amount = change;
     previous.reading += change;
   }
 
@@ -208,14 +204,14 @@ namespace perideal
   void ControlledNewton<dim>::go_back()
   {
     this->restore();
-    now = previous.time;
+    now = last.time;
   }
 
   template <int dim>
   bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
   {
     const bool secant = slope == Slope::secant, searches = !secant && this->bonds.softening_bonds().softens();
-    this->tangent.linearise(this->bonds, secant);
+    this->linearise(slope);
     start = {displacement, now};
     prepare_loads();
     const double norm   = this->residual.l2_norm();

@@ -66,26 +66,16 @@ namespace perideal
   {
     EquilibriumPath<dim>::register_state(state);
     state.add_node_array("mass", "kg", dim, mass);
-    state.add_node_array("increment", "m", dim, this->increment);
-    state.add_value("last interval", last_interval);
     state.add_value("broke in step", this->breaks.in_step);
   }
 
   template <int dim>
-  void DynamicRelaxation<dim>::resume(const NodalVector &external, const double time)
+  void DynamicRelaxation<dim>::start_step(const NodalVector &, const double time)
   {
-    EquilibriumPath<dim>::resume(external, time);
-    last_time = time;
-  }
-
-  template <int dim>
-  void DynamicRelaxation<dim>::start_step(const double time)
-  {
-    if (!this->breaks.in_step && last_interval > 0)
-      displacement.add((time - last_time) / last_interval, this->increment);
+    const auto &last = this->last;
+    if (!this->breaks.in_step && last.time_change > 0)
+      displacement.add((time - last.time) / last.time_change, last.motion);
     held.set_boundary_values(this->loads, time, displacement);
-    last_interval = time - last_time;
-    last_time     = time;
     forget_motion();
     this->set_rounding(mass);
   }

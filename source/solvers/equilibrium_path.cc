@@ -64,6 +64,7 @@ namespace perideal
                                 &increment,
                                 &last.displacement,
                                 &last.external,
+                                &last.motion,
                                 &last.support_force})
       bonds.initialize(*vector);
     bonds.judge_bonds(Judgement::on_trial);
@@ -77,7 +78,7 @@ namespace perideal
   EquilibriumStep
   EquilibriumPath<dim>::step(const NodalVector &external, const double time, const Progress &progress)
   {
-    start_step(time);
+    start_step(external, time);
     increment      = 0.;
     breaks.in_step = false;
     EquilibriumStep result;
@@ -127,6 +128,8 @@ namespace perideal
           {
             last.note(norms);
             balance(external, force, bonds.strain_energy());
+            if (!breaks.wait)
+              last.note_step(increment, time);
             result.converged = true;
             return result;
           }
@@ -233,6 +236,9 @@ namespace perideal
     state.add_value("external work", last.energy.external);
     state.add_value("switched energy", last.energy.switched);
     state.add_value("largest load", last.largest_load);
+    state.add_node_array("motion of the last load step", "m", dim, last.motion);
+    state.add_value("end of the last load step", last.time);
+    state.add_value("change of t in the last load step", last.time_change);
   }
 
   template <int dim>

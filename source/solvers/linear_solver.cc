@@ -68,6 +68,34 @@ namespace perideal
       const NullSpace<dim>           &null_space;
     };
 
+    /// The system of a search for descent, where CG is to end before a direction along which the operator is
+    /// not positive.
+    template <int dim>
+    struct DescentSystem
+    {
+      struct NotPositive
+      {
+      };
+
+      void vmult(NodalVector &destination, const NodalVector &source) const
+      {
+        system.vmult(destination, source);
+        if (source * destination <= 0)
+          {
+            // The first direction descends, whatever its curvature.
+            if (n_directions == 0)
+              solution = source;
+            throw NotPositive();
+          }
+        ++n_directions;
+      }
+
+      const BalancedSystem<dim> system;
+      /// Zero at the beginning.
+      NodalVector         &solution;
+      mutable unsigned int n_directions = 0;
+    };
+
     /// deal.II's CG or GMRES on the matrix-free operator.
     template <int dim, typename Preconditioner>
     class KrylovSolver : public LinearSolver<dim>
@@ -77,15 +105,13 @@ namespace perideal
                    const PreconditionerChoice     &choice,
                    const ConstrainedOperator<dim> &system,
                    const NullSpace<dim>           &null_space,
-                   std::unique_ptr<Preconditioner> preconditioner,
-                   const bool                      symmetric)
+                   std::unique_ptr<Preconditioner> preconditioner)
         : LinearSolver<dim>(parameters.tolerance)
         , parameters(parameters)
         , choice(choice)
         , system(system)
         , null_space(null_space)
         , preconditioner(std::move(preconditioner))
-        , symmetric(symmetric)
       {
       }
 
@@ -99,8 +125,8 @@ namespace perideal
         const ProjectedPreconditioner<dim, Preconditioner> projected(*preconditioner, null_space);
         try
           {
-            if (symmetric)
-              run_cg(control, monitor, solution, source, projected);
+            if (takes_cg())
+              run_cg(result, control, monitor, solution, source, projected);
             else
               run_gmres(control, monitor, solution, source, projected);
             result.converged = true;
@@ -114,7 +140,7 @@ namespace perideal
 
       std::string name() const override
       {
-        return (symmetric             ? "cg, " :
+        return (takes_cg()            ? "cg, " :
                 system.is_symmetric() ? "gmres, " :
                                         "gmres (the operator is not symmetric), ") +
                name_of(choice.preconditioner) + " preconditioner" +
@@ -123,8 +149,16 @@ namespace perideal
       }
 
     private:
+      /// By itself it chooses for the system as it is when it is solved.
+      bool takes_cg() const
+      {
+        return parameters.takes_cg() ||
+               (parameters.linear_solver == LinearSolverName::automatic && system.is_symmetric());
+      }
+
       template <typename Projected>
-      void run_cg(dealii::SolverControl &control,
+      void run_cg(LinearSolve           &result,
+                  dealii::SolverControl &control,
                   Monitor               &monitor,
                   NodalVector           &solution,
                   const NodalVector     &source,
@@ -133,7 +167,20 @@ namespace perideal
         dealii::SolverCG<NodalVector> cg(control);
         cg.connect(monitor);
         cg.connect_coefficients_slot([&](const double length, const double) { monitor.judge_step(length); });
-        cg.solve(BalancedSystem<dim>{system, null_space}, solution, source, projected);
+        const BalancedSystem<dim> balanced{system, null_space};
+        if (!this->descends)
+          {
+            cg.solve(balanced, solution, source, projected);
+            return;
+          }
+        try
+          {
+            cg.solve(DescentSystem<dim>{balanced, solution}, solution, source, projected);
+          }
+        catch (const typename DescentSystem<dim>::NotPositive &)
+          {
+            result.indefinite = true;
+          }
       }
 
       template <typename Projected>
@@ -155,7 +202,6 @@ namespace perideal
       const ConstrainedOperator<dim> &system;
       const NullSpace<dim>           &null_space;
       std::unique_ptr<Preconditioner> preconditioner;
-      bool                            symmetric;
     };
 
     /// Trilinos' own solvers on the assembled matrix.
@@ -242,30 +288,22 @@ namespace perideal
                                                           const std::shared_ptr<const ElasticFem<dim>> &fem,
                                                           const SurfaceNodes<dim> *surface)
   {
+    if (parameters.takes_cg() && !system.is_symmetric())
+      throw InputError("the operator of this scene is not symmetric")
+        .parameter("Solver/Linear solver")
+        .allowed("automatic | gmres | trilinos gmres | direct");
     if (parameters.assembles())
       {
         if (!null_space.empty())
           throw InputError("the assembled solvers cannot leave rigid-body motions free")
             .parameter("Solver/Linear solver")
             .allowed("automatic | cg | gmres for this scene");
-        if (parameters.linear_solver == LinearSolverName::trilinos_cg && !system.is_symmetric())
-          throw InputError("the operator of this scene is not symmetric")
-            .parameter("Solver/Linear solver")
-            .allowed("automatic | gmres | trilinos gmres | direct");
         return std::make_unique<AssembledSolver<dim>>(parameters, system);
       }
-    if (parameters.linear_solver == LinearSolverName::cg && !system.is_symmetric())
-      throw InputError("the operator of this scene is not symmetric")
-        .parameter("Solver/Linear solver")
-        .allowed("automatic | gmres | trilinos gmres | direct");
-
-    const bool symmetric = parameters.linear_solver == LinearSolverName::automatic ?
-                             system.is_symmetric() :
-                             parameters.linear_solver == LinearSolverName::cg;
-    const auto krylov    = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
+    const auto krylov = [&](auto preconditioner) -> std::unique_ptr<LinearSolver<dim>> {
       using Preconditioner = typename decltype(preconditioner)::element_type;
       return std::make_unique<KrylovSolver<dim, Preconditioner>>(
-        parameters, choice, system, null_space, std::move(preconditioner), symmetric);
+        parameters, choice, system, null_space, std::move(preconditioner));
     };
     if (choice.preconditioner == PreconditionerName::none)
       return krylov(std::make_unique<dealii::PreconditionIdentity>());

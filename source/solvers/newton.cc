@@ -17,12 +17,15 @@ namespace perideal
     constexpr double slope_left = 0.5;
     /// Forces of one search.
     constexpr unsigned int max_trials = 20;
-    /// Iterations by the secant after the tangent of softening bonds was of no use.
-    constexpr unsigned int without_tangent_in_a_row = 8;
     /// Iterations that may pass before the residual is half of what it was.
     constexpr unsigned int most_in_vain = 5;
     /// Stiffness of the springs that hold loose nodes over that of the nodes in the whole body.
     constexpr double anchor_share = 1e-8;
+    /// What a linear system of bonds that soften may leave of its first residual.
+    constexpr double left_by_softening = 0.1;
+    /// The longest step over the one before that goes on as that did, and the residual over the largest load
+    /// from which it does.
+    constexpr double longest_start = 2., largest_mistake = 0.1;
   } // namespace
 
   template <int dim>
@@ -99,8 +102,13 @@ namespace perideal
   }
 
   template <int dim>
-  void NewtonSolver<dim>::start_step(const double time)
+  void NewtonSolver<dim>::start_step(const NodalVector &external, const double time)
   {
+    if (start_along_last_step(external, time))
+      {
+        start_in_place();
+        return;
+      }
     held_increment = displacement;
     held.set_boundary_values(this->loads, time, held_increment);
     held_increment -= displacement;
@@ -116,12 +124,31 @@ namespace perideal
   }
 
   template <int dim>
+  bool NewtonSolver<dim>::start_along_last_step(const NodalVector &external, const double time)
+  {
+    const double ahead = (time - this->last.time) / this->last.time_change;
+    if (!this->bonds.softening_bonds().softens() || this->breaks.wait ||
+        !(this->last.time_change > 0 && ahead > 0 && ahead <= longest_start))
+      return false;
+    displacement.add(ahead, this->last.motion);
+    held.set_boundary_values(this->loads, time, displacement);
+    if (this->face_values != nullptr)
+      this->face_values->set_time(this->loads, time);
+    this->compute_forces();
+    compute_residual(external);
+    if (residual.l2_norm() <= largest_mistake * std::sqrt(this->last.largest_load))
+      return true;
+    this->restore();
+    return false;
+  }
+
+  template <int dim>
   void NewtonSolver<dim>::start_in_place()
   {
     in_place = true;
     linear.start_step();
-    searching.n_without_tangent = searching.n_in_vain = 0;
-    searching.least_residual                          = std::numeric_limits<double>::max();
+    searching.n_in_vain      = 0;
+    searching.least_residual = std::numeric_limits<double>::max();
     this->set_rounding(anchors.rest_stiffness);
   }
 
@@ -166,7 +193,7 @@ namespace perideal
     if (!in_place)
       {
         // The supports pull before they move.
-        tangent.linearise(this->bonds, true);
+        linearise(Slope::secant);
         force_of_supports(correction);
         residual += correction;
         null_space.project(residual);
@@ -192,10 +219,10 @@ namespace perideal
     if (in_place && this->bonds.softening_bonds().softens() && !this->breaks.wait)
       return iterate_softening(external, result);
     if (in_place)
-      tangent.linearise(this->bonds, this->breaks.wait);
+      linearise(this->breaks.wait ? Slope::secant : Slope::tangent);
     if (!solve(result))
       return false;
-    if (in_place && search(external))
+    if (in_place && search(external, max_trials))
       return true;
     if (in_place)
       {
@@ -212,10 +239,25 @@ namespace perideal
   }
 
   template <int dim>
-  bool NewtonSolver<dim>::solve(EquilibriumStep &result)
+  void NewtonSolver<dim>::linearise(const Slope slope)
   {
-    correction                = 0.;
-    const LinearSolve solving = linear.solve(correction, residual, std::min(relative_tolerance(), 0.5));
+    if (linear.has_slowed())
+      {
+        tangent.linearise(this->bonds, Slope::secant);
+        linear.renew();
+      }
+    tangent.linearise(this->bonds, slope);
+    if (slope == Slope::tangent && !system.is_symmetric() && linear.needs_symmetry())
+      tangent.linearise(this->bonds, Slope::secant);
+  }
+
+  template <int dim>
+  bool NewtonSolver<dim>::solve(EquilibriumStep &result, const bool descends)
+  {
+    const double least = descends ? left_by_softening : 0.;
+    correction         = 0.;
+    const LinearSolve solving =
+      linear.solve(correction, residual, std::min(std::max(relative_tolerance(), least), 0.5), descends);
     result.linear_iterations += solving.iterations;
     if (!solving.converged)
       result.problem = "the linear solver (" + linear.name() + ") did not converge";
@@ -230,11 +272,11 @@ namespace perideal
         searching.least_residual = norms.residual;
         searching.n_in_vain      = 0;
       }
-    if (searching.n_without_tangent == 0 && searching.n_in_vain < most_in_vain)
+    if (searching.n_in_vain < most_in_vain)
       {
         ++searching.n_in_vain;
-        tangent.linearise(this->bonds);
-        if (solve(result) && search(external))
+        linearise(Slope::tangent);
+        if (solve(result, true) && search(external, 1))
           return true;
       }
     if (!may_jump)
@@ -242,18 +284,17 @@ namespace perideal
         result.problem = "the path turns back";
         return false;
       }
-    searching.n_without_tangent =
-      (searching.n_without_tangent > 0 ? searching.n_without_tangent : without_tangent_in_a_row) - 1;
     searching.n_in_vain = 0;
     // There is no equilibrium nearby. What has softened until here stays so.
     this->extend_bonds();
     this->judge(external);
-    tangent.linearise(this->bonds, true);
-    if (!solve(result))
+    compute_residual(external);
+    linearise(Slope::secant);
+    if (!solve(result, true))
       return false;
     result.problem.clear();
     // Bonds that open and close would alternate without a search.
-    if (!search(external))
+    if (!search(external, max_trials))
       {
         displacement += correction;
         this->compute_forces();
@@ -262,12 +303,12 @@ namespace perideal
   }
 
   template <int dim>
-  bool NewtonSolver<dim>::search(const NodalVector &external)
+  bool NewtonSolver<dim>::search(const NodalVector &external, const unsigned int n_uphill)
   {
     const double norm = residual.l2_norm(), slope = correction * residual;
     searching.start = displacement;
     double share = 1., low = 0., low_slope = slope, high = 0., high_slope = 0.;
-    for (unsigned int trial = 0; trial < max_trials; ++trial)
+    for (unsigned int trial = 0; trial < (slope > 0 ? max_trials : n_uphill); ++trial)
       {
         displacement = searching.start;
         displacement.add(share, correction);
@@ -298,6 +339,7 @@ namespace perideal
       }
     displacement = searching.start;
     this->compute_forces();
+    compute_residual(external);
     return false;
   }
 

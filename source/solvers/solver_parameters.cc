@@ -35,7 +35,8 @@ namespace perideal
       "Newton iterations",
       newton_iterations,
       "Iterations after which an equilibrium of quasi static has failed, > 0; they are counted "
-      "anew after every break, under Control other than loads also where a tenth of the residual is left",
+      "anew after every break; under Control other than loads, after each that halves the residual, and "
+      "more than ten are not taken",
       Integer(1));
     prm.add_parameter(
       "Step halvings",
@@ -46,9 +47,10 @@ namespace perideal
     prm.add_parameter(
       "Linear solver",
       linear_solver,
-      "automatic: cg where the operator is symmetric, else gmres; cg, gmres: deal.II's, "
-      "matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on the assembled matrix, for "
-      "small problems");
+      "automatic: cg where the operator is symmetric, else gmres, as while bonds soften whose model has sums "
+      "over families; cg, gmres: deal.II's, matrix-free; trilinos cg, trilinos gmres, direct: Trilinos' on "
+      "the assembled matrix, for small problems. Either cg takes the secant of bonds that soften where their "
+      "tangent is not symmetric");
     prm.add_parameter(
       "Preconditioner",
       preconditioner,
@@ -154,5 +156,10 @@ namespace perideal
   {
     return linear_solver == LinearSolverName::direct || linear_solver == LinearSolverName::trilinos_cg ||
            linear_solver == LinearSolverName::trilinos_gmres;
+  }
+
+  bool SolverParameters::takes_cg() const
+  {
+    return linear_solver == LinearSolverName::cg || linear_solver == LinearSolverName::trilinos_cg;
   }
 } // namespace perideal

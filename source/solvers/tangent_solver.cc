@@ -33,17 +33,24 @@ namespace perideal
   }
 
   template <int dim>
-  LinearSolve
-  TangentSolver<dim>::solve(NodalVector &solution, const NodalVector &source, const double tolerance)
+  void TangentSolver<dim>::renew()
   {
-    if (parameters.assembles() || is_slow)
-      {
-        is_new   = renew(solver, parameters);
-        is_first = is_first && !is_new;
-        is_slow  = false;
-      }
+    is_new   = renew(solver, parameters);
+    is_first = is_first && !is_new;
+    is_slow  = false;
+  }
+
+  template <int dim>
+  LinearSolve TangentSolver<dim>::solve(NodalVector       &solution,
+                                        const NodalVector &source,
+                                        const double       tolerance,
+                                        const bool         descends)
+  {
+    if (parameters.assembles())
+      renew();
     const NodalVector start(solution);
     solver->set_tolerance(tolerance);
+    solver->set_descent(descends);
     LinearSolve result = solver->solve(solution, source, {});
     if (parameters.assembles())
       return result;

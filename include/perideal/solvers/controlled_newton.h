@@ -72,8 +72,8 @@ namespace perideal
 
     /// Factor of the loads at the last equilibrium, and by how much the controlled quantity grew in the step
     /// that led there.
-    double time() const { return previous.time; }
-    double time_change() const { return previous.time_change; }
+    double time() const { return last.time; }
+    double time_change() const { return last.time_change; }
     double amount() const { return previous.amount; }
 
     /// From now on a step by load() fails where it dissipates more [J].
@@ -83,12 +83,6 @@ namespace perideal
     void resume(const NodalVector &external, const double time) override;
 
   private:
-    enum class Slope
-    {
-      secant,
-      tangent
-    };
-
     void initialize();
     /// Starts along the way of the last step.
     void predict(const double amount);
@@ -108,8 +102,8 @@ namespace perideal
     /// The change of t with which the controlled quantity is right after the whole x, where the body is left;
     /// not a number where there is none. Collective.
     double find_time_change(const double amount);
-    /// Keeps an equilibrium and the way to it.
-    void keep_step(const double change);
+    /// Keeps by how much the controlled quantity has grown to an equilibrium.
+    void keep_amount(const double change);
 
     using EquilibriumPath<dim>::held;
     using EquilibriumPath<dim>::last;
@@ -127,12 +121,11 @@ namespace perideal
       double      time = 0;
     };
     Start start;
-    /// The last equilibrium and the step to it; by how much unit t changes the controlled quantity, as read
-    /// last, or zero.
+    /// The controlled quantity at the last equilibrium and its change in the step there; by how much unit t
+    /// changes it, as read last, or zero.
     struct Previous
     {
-      NodalVector motion;
-      double      time = 0, time_change = 0, amount = 0, reading = 0, by_time = 0;
+      double amount = 0, reading = 0, by_time = 0;
     };
     Previous previous;
   };

@@ -45,7 +45,6 @@ namespace perideal
     using EquilibriumPath<dim>::displacement;
 
     void register_state(LastingState &state) override;
-    void resume(const NodalVector &external, const double time) override;
 
   private:
     /// Of all ranks: norms of forces, and products of the motion.
@@ -58,7 +57,7 @@ namespace perideal
       double d_K_d, d_M_d;
     };
 
-    void                                 start_step(const double time) override;
+    void                                 start_step(const NodalVector &external, const double time) override;
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
     bool iterate(const NodalVector &external, EquilibriumStep &result) override;
     void forget_motion() override;
@@ -81,8 +80,6 @@ namespace perideal
     double       damping = 0;
     /// At the present state.
     Sums sums = {};
-    /// Of the last step.
-    double last_time = 0, last_interval = 0;
   };
 } // namespace perideal
 

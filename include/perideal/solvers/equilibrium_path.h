@@ -129,8 +129,8 @@ namespace perideal
       double residual, reaction, load;
     };
 
-    /// Begins a step; the forces are computed next.
-    virtual void start_step(const double time) = 0;
+    /// Begins a step; the forces are computed next. Collective.
+    virtual void start_step(const NodalVector &external, const double time) = 0;
     /// Norms at the present state. Collective.
     virtual Norms measure(const NodalVector &external) = 0;
     /// False while held components are not yet where they belong.
@@ -197,16 +197,31 @@ namespace perideal
     Breaks breaks;
 
     /// The last equilibrium: forces are those of loads and supports [N], the largest load the square of the
-    /// largest norm of loads or reactions at any equilibrium so far [N^2].
+    /// largest norm of loads or reactions at any equilibrium so far [N^2]; the motion in the step there [m],
+    /// when it was and by how much it changed the time.
     struct Equilibrium
     {
       NodalVector                         displacement, external, support_force;
       std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
       EnergyBudget                        energy;
       double                              largest_load = 0;
+      NodalVector                         motion;
+      double                              time = 0, time_change = 0;
 
       /// Notes loads and reactions.
       void note(const Norms &norms) { largest_load = std::max({largest_load, norms.reaction, norms.load}); }
+      /// Notes a step. Where bonds have taken the place of cells, equilibrium is sought twice at a time.
+      void note_step(const NodalVector &increment, const double now)
+      {
+        if (now == time)
+          motion += increment;
+        else
+          {
+            motion      = increment;
+            time_change = now - time;
+            time        = now;
+          }
+      }
     };
     Equilibrium last;
 

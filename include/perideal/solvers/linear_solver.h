@@ -58,6 +58,9 @@ namespace perideal
 
     /// Sets the residual over the first one at which later solves end.
     void set_tolerance(const double value) { tolerance = value; }
+    /// Whether later solves, which start from zero, are to find a step along which the energy of the system
+    /// falls: CG ends as converged before the first direction along which the operator is not positive.
+    void set_descent(const bool value) { descends = value; }
 
   protected:
     explicit LinearSolver(const double tolerance)
@@ -66,6 +69,7 @@ namespace perideal
     }
 
     double tolerance;
+    bool   descends = false;
   };
 
   /// Chooses the solver: CG where the operator is symmetric, else GMRES, unless

@@ -12,7 +12,8 @@ namespace perideal
   /**
    * Finds equilibria by Newton-Raphson (PDBC Appendix B) with the tangent in closed form. Loads are dead
    * loads. In the first iteration of a step the held components move by their increments, and the free ones
-   * by the linear prediction from where the last step ended.
+   * by the linear prediction from where the last step ended. Where bonds soften, a step begins where its
+   * part of the motion of the step before leads, if that is near an equilibrium: cracks mostly go on.
    *
    * Linear systems are solved to a tenth of the relative residual of the equilibrium, at most to 1e-3, so
    * that the residual they leave goes with the square of it, below the one that Newton's method leaves
@@ -25,9 +26,11 @@ namespace perideal
    * not positive definite there and |r| alone counts.
    *
    * Where bonds soften, the tangent is that of bonds that go on to do so, as long as it leads on. Where it
-   * does not, as when a crack jumps, some iterations find the equilibrium of the bonds as they have softened
-   * until then and let them soften further there, for good: each of these linear systems is positive
-   * definite, and what is left of bonds only falls.
+   * does not, as when a crack jumps, an iteration seeks the equilibrium of the bonds as they have softened
+   * until then and lets them soften further there, for good: that linear system is positive definite, and
+   * what is left of bonds only falls. The linear systems are solved to a tenth only, since bonds that begin
+   * to soften or unload leave more than that, and, where CG does, no further than along directions in which
+   * energy is stored: so the step descends.
    *
    * Where bonds break, fragments may become disconnected from the supports, which makes the tangent singular:
    * springs of 1e-8 of their stiffness hold each of their nodes where it was then. No load acts on them but
@@ -74,8 +77,11 @@ namespace perideal
     typename EquilibriumPath<dim>::Norms measure(const NodalVector &external) override;
     void                                 forget_motion() override { anchor(); }
 
+    /// Linearises the force about the present state; by the secant where a tangent that is not symmetric
+    /// would suit no linear solver. Collective.
+    void linearise(const Slope slope);
     /// Solves for the correction of the residual; tells the result of failures. Collective.
-    bool solve(EquilibriumStep &result);
+    bool solve(EquilibriumStep &result, const bool descends = false);
     /// External and internal force of free components, motions that are free taken out.
     void compute_residual(const NodalVector &external);
     /// Begins a step whose held components stand in their places.
@@ -97,7 +103,10 @@ namespace perideal
     bool may_jump = true;
 
   private:
-    void start_step(const double time) override;
+    void start_step(const NodalVector &external, const double time) override;
+    /// Goes on as in the last step; false, with the body where it was, where that leads to no state near an
+    /// equilibrium. Collective.
+    bool start_along_last_step(const NodalVector &external, const double time);
     bool is_in_place() const override { return in_place; }
     bool iterate(const NodalVector &external, EquilibriumStep &result) override;
     /// Holds the nodes that are disconnected from the supports. Collective.
@@ -105,8 +114,10 @@ namespace perideal
 
     /// iterate() of bonds that soften, with supports in place.
     bool iterate_softening(const NodalVector &external, EquilibriumStep &result);
-    /// Moves along the step as far as it helps; false where nothing did. Collective.
-    bool search(const NodalVector &external);
+    /// Moves along the step as far as it helps; false, with the body where it was, where nothing did.
+    /// Collective.
+    /// @param n_uphill trials where the energy does not fall at the beginning of the step
+    bool search(const NodalVector &external, const unsigned int n_uphill);
 
     /// The springs that hold disconnected nodes: where they are at rest [m], how stiff the nodes are in the
     /// whole body [N/m], and how many nodes they hold.
@@ -122,12 +133,12 @@ namespace perideal
     bool                                 in_place = true;
     typename EquilibriumPath<dim>::Norms norms    = {};
 
-    /// Where a line search begins; of bonds that soften, the iterations by the secant that are still to come,
-    /// the least squared residual of the step [N^2], and how long it has been.
+    /// Where a line search begins; of bonds that soften, the least squared residual of the step [N^2], and
+    /// how long it has been.
     struct Search
     {
       NodalVector  start;
-      unsigned int n_without_tangent = 0, n_in_vain = 0;
+      unsigned int n_in_vain      = 0;
       double       least_residual = 0;
     };
     Search searching;

@@ -155,6 +155,9 @@ namespace perideal
 
     /// True when the system is assembled.
     bool assembles() const;
+
+    /// True when the solver that was asked for takes symmetric systems alone.
+    bool takes_cg() const;
   };
 } // namespace perideal
 

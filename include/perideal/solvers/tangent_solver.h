@@ -13,9 +13,9 @@ namespace perideal
 {
   /**
    * Solves with a system that changes a little from solve to solve, as tangents do. The preconditioner is
-   * made at first and again when the iterations for a digit have doubled since; the assembled solvers are
-   * made for every solve. Where CG was chosen by itself and fails, since the system is not positive
-   * definite, GMRES is tried.
+   * made at first, and is to be made again when the iterations for a digit have doubled since; the assembled
+   * solvers are made for every solve. Where CG was chosen by itself and fails, since the system is not
+   * positive definite, GMRES is tried.
    */
   template <int dim>
   class TangentSolver
@@ -29,7 +29,19 @@ namespace perideal
 
     /// @param solution start and result; a failed solve is reported, not thrown. Collective.
     /// @param tolerance residual over the first residual
-    LinearSolve solve(NodalVector &solution, const NodalVector &source, const double tolerance);
+    /// @param descends whether a step is wanted along which the energy falls (LinearSolver::set_descent())
+    LinearSolve solve(NodalVector       &solution,
+                      const NodalVector &source,
+                      const double       tolerance,
+                      const bool         descends = false);
+
+    /// Whether solves have become slow, so that the preconditioner is to be made anew.
+    bool has_slowed() const { return is_slow && !parameters.assembles(); }
+    /// Makes the preconditioner for the system as it is, which is to be positive definite. Collective.
+    void renew();
+
+    /// Whether the solver that was asked for takes symmetric systems alone.
+    bool needs_symmetry() const { return parameters.takes_cg(); }
 
     std::string name() const { return solver->name(); }
 

@@ -37,7 +37,7 @@ namespace perideal
   }
 
   template <int dim>
-  void ConsistentOperator<dim>::linearise(const BondForce<dim> &force, const bool)
+  void ConsistentOperator<dim>::linearise(const BondForce<dim> &force, const Slope)
   {
     const auto *from = dynamic_cast<const ConsistentForce<dim> *>(&force);
     AssertThrow(from != nullptr, dealii::ExcInternalError());

@@ -60,7 +60,7 @@ namespace perideal
   }
 
   template <int dim>
-  void CorrespondenceTangent<dim>::linearise(const BondForce<dim> &force, const bool)
+  void CorrespondenceTangent<dim>::linearise(const BondForce<dim> &force, const Slope)
   {
     if (is_linear)
       return;

@@ -89,7 +89,7 @@ namespace perideal
             if constexpr (deformed)
               {
                 Lanes scale;
-                load(scale, deformation.scale.data() + k);
+                load(scale, deformation.of_sums().data() + k);
                 extension *= scale;
               }
             FourBonds bonds;

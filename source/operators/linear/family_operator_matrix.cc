@@ -22,36 +22,37 @@ namespace perideal
           const LocalIndex j = weights->bonds.neighbour[k];
           if (j == i)
             continue;
-          const auto                 xi = bond_vector(i, j, k);
+          const auto                 xi = bond_vector(i, j, k), in_sums = vector_in_sums(i, j, k);
           const BondIndex            at = weights->at(k);
           std::array<double, n_sums> near_sum, far_sum;
           for (unsigned int a = 0; a < n_sums; ++a)
             {
               near_sum[a] = weights->sum_weight[a].near[at];
               far_sum[a]  = weights->sum_weight[a].far[at];
-              own_sum[i][a] += near_sum[a] * xi;
+              own_sum[i][a] += near_sum[a] * in_sums;
               own_force[i][a] += weights->force_weights()[a].near[at] * xi;
               if (j < n_owned)
                 {
-                  own_sum[j][a] -= far_sum[a] * xi;
+                  own_sum[j][a] -= far_sum[a] * in_sums;
                   own_force[j][a] -= weights->force_weights()[a].far[at] * xi;
                 }
             }
           // The neighbour's family moves with this node, and the other way round.
-          double     of_i = stiffness(k), of_j = stiffness(k);
+          double     of_i = 0, of_j = 0;
           const auto far_states = weights->states(j, far_sum), near_states = weights->states(i, near_sum);
           for (unsigned int a = 0; a < n_sums; ++a)
             {
               of_i += weights->force_weights()[a].far[at] * far_states[a];
               of_j += weights->force_weights()[a].near[at] * near_states[a];
             }
-          const auto             square = outer_product(xi, xi);
-          dealii::Tensor<2, dim> across;
+          dealii::Tensor<2, dim> own = stiffness(k) * outer_product(xi, xi);
           if constexpr (deformed)
-            across = deformation.tension[k] * dealii::unit_symmetric_tensor<dim>();
-          result[i] += of_i * square + across;
+            for (int d = 0; d < dim; ++d)
+              own[d][d] += deformation.tension[k];
+          const auto by_states = outer_product(xi, in_sums);
+          result[i] += own + of_i * by_states;
           if (j < n_owned)
-            result[j] += of_j * square + across;
+            result[j] += own + of_j * by_states;
         }
     for (LocalIndex i = 0; i < n_owned; ++i)
       for (unsigned int a = 0; a < n_sums; ++a)
@@ -93,6 +94,7 @@ namespace perideal
             const LocalIndex      j       = families->begin(i)[m];
             const BondCursor::End end     = ends[m];
             const auto            xi      = bond_vector(i, j, end.slot);
+            const auto            in_sums = vector_in_sums(i, j, end.slot);
             const BondIndex       of_bond = weights->at(end.slot);
             const std::size_t     at      = dim * (m + 1);
             for (int d = 0; d < dim; ++d)
@@ -102,7 +104,7 @@ namespace perideal
                 {
                   const auto  &s = weights->sum_weight[a];
                   const auto  &p = weights->force_weights()[a];
-                  const double g = (end.is_near ? s.near : s.far)[of_bond] * xi[d];
+                  const double g = (end.is_near ? s.near : s.far)[of_bond] * in_sums[d];
                   const double f = (end.is_near ? p.near : p.far)[of_bond] * xi[d];
                   sum_row[a][at + d] += g;
                   sum_row[a][d] -= g;

@@ -4,6 +4,8 @@
 #include <perideal/operators/linear/tangent_operator.h>
 #include <perideal/operators/linear/tensor_operator.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,24 +30,38 @@ namespace perideal
         deformation.tension.assign(weights->bonds.n_slots(), 0.);
       }
 
-      void linearise(const BondForce<dim> &force, const bool secant) override
+      void linearise(const BondForce<dim> &force, const Slope slope) override
       {
         std::copy_n(force.positions(), positions.size(), positions.begin());
         const BondList       &bonds     = weights->bonds;
         const SofteningBonds &softening = force.softening_bonds();
         BondIndex             slot      = 0;
+        bool                  goes_on   = false;
+        deformation.scale_in_sums.clear();
+        if (n_sums > 0 && softening.softens() && slope == Slope::tangent)
+          deformation.scale_in_sums.resize(deformation.scale.size());
         force.visit_bond_forces(
           [&](const LocalIndex i, const LocalIndex j, const dealii::Tensor<1, dim> &pull) {
             while (bonds.neighbour[slot] != j || slot < bonds.row[i])
               ++slot; // padding
             set_bond(slot, i, j, pull);
+            if (!deformation.scale_in_sums.empty())
+              deformation.scale_in_sums[slot] = deformation.scale[slot];
             if (softening.softens())
-              soften(slot, softening.left(slot, 1. / deformation.scale[slot] - 1.), secant);
+              goes_on |= soften(slot, softening.left(slot, 1. / deformation.scale[slot] - 1.), slope);
             ++slot;
           });
         for (const auto &bond : force.lost_bonds())
           deformation.scale[bond.slot] = deformation.tension[bond.slot] = 0.;
+        if (deformation.scale_in_sums.empty())
+          return;
+        for (const auto &bond : force.lost_bonds())
+          deformation.scale_in_sums[bond.slot] = 0.;
+        if (dealii::Utilities::MPI::max(goes_on ? 1u : 0u, families->communicator) == 0)
+          deformation.scale_in_sums.clear();
       }
+
+      bool is_symmetric() const override { return weights->symmetric && deformation.scale_in_sums.empty(); }
 
     private:
       using Loops::deformation;
@@ -71,21 +87,27 @@ namespace perideal
       }
 
       /// With p the share g times what it was: the sums have g p then, and what goes with p p is divided by
-      /// g^2.
-      void soften(const BondIndex slot, const SofteningBonds::Left &left, const bool secant)
+      /// g^2. Tells whether the bond goes on to soften.
+      bool soften(const BondIndex slot, const SofteningBonds::Left &left, const Slope slope)
       {
         if (left.share == 1.)
-          return;
+          return false;
         const double whole   = weights->stiffness[weights->at(slot)];
-        const double tension = deformation.tension[slot], stretched = 1. / deformation.scale[slot];
+        const double stretched = 1. / deformation.scale[slot];
         const double by_length = deformation.stiffness[slot] - whole; // -tension/|xi|^2
         deformation.scale[slot] *= left.share;
         if (left.share == 0.)
-          return;
-        double along = left.stiffness * whole + by_length;
-        if (!secant && tension > 0)
-          along += -by_length * stretched / left.share * left.slope;
+          {
+            if (!deformation.scale_in_sums.empty())
+              deformation.scale_in_sums[slot] = 0.;
+            return false;
+          }
+        const double change = slope == Slope::secant ? 0. : left.slope;
+        const double along = left.stiffness * whole + by_length - by_length * stretched / left.share * change;
         deformation.stiffness[slot] = along / (left.share * left.share);
+        if (!deformation.scale_in_sums.empty())
+          deformation.scale_in_sums[slot] *= left.share + change * (stretched - 1.);
+        return change != 0.;
       }
     };
 
@@ -103,7 +125,7 @@ namespace perideal
         this->partitioner = weights->families->make_partitioner(dim);
       }
 
-      void linearise(const BondForce<dim> &force, const bool) override
+      void linearise(const BondForce<dim> &force, const Slope) override
       {
         const auto           &lost      = force.lost_bonds();
         const SofteningBonds &softening = force.softening_bonds();

@@ -15,11 +15,11 @@ namespace perideal
   }
 
   template <int dim>
-  void ZonedTangent<dim>::linearise(const BondForce<dim> &force, const bool secant)
+  void ZonedTangent<dim>::linearise(const BondForce<dim> &force, const Slope slope)
   {
     const auto *from = dynamic_cast<const ZonedForce<dim> *>(&force);
     AssertThrow(from != nullptr, dealii::ExcInternalError());
-    cells->linearise(from->cell_force(), secant);
+    cells->linearise(from->cell_force(), slope);
     const FractureZone<dim> &zone = from->fracture_zone();
     if (!zone.is_there())
       return;
@@ -28,7 +28,7 @@ namespace perideal
         bonds   = create_tangent<dim>(from->scaled_weights());
         version = zone.version();
       }
-    bonds->linearise(from->bond_force(), secant);
+    bonds->linearise(from->bond_force(), slope);
   }
 
   template <int dim>

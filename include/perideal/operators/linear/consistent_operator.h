@@ -51,7 +51,7 @@ namespace perideal
     }
 
     /// @param force a ConsistentForce of the same moments and bonds
-    void linearise(const BondForce<dim> &force, const bool secant = false) override;
+    void linearise(const BondForce<dim> &force, const Slope slope = Slope::tangent) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;

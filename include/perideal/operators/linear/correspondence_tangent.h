@@ -30,7 +30,7 @@ namespace perideal
                        const std::shared_ptr<const CellExpansion<dim>> &of_cells);
 
     /// @param force a CorrespondenceForce of the same rows
-    void linearise(const BondForce<dim> &force, const bool secant = false) override;
+    void linearise(const BondForce<dim> &force, const Slope slope = Slope::tangent) override;
 
     void   vmult(NodalVector &force, const NodalVector &displacement) const override;
     void   internal_force(NodalVector &force, const NodalVector &displacement) const override;

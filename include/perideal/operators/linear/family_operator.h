@@ -23,10 +23,13 @@ namespace perideal
   };
 
   /// Of FamilyOperator in the deformed body, by slot: |xi|/|y_j - y_i|, zero of bonds that carry nothing;
-  /// k' and g as TangentOperator has them [N/m^3], [N/m].
+  /// k' and g as TangentOperator has them [N/m^3], [N/m]; what takes the place of the scale in the sums of
+  /// families where bonds go on to soften, else empty.
   struct DeformedBonds
   {
-    std::vector<double> scale, stiffness, tension;
+    std::vector<double> scale, stiffness, tension, scale_in_sums;
+
+    const std::vector<double> &of_sums() const { return scale_in_sums.empty() ? scale : scale_in_sums; }
   };
 
   /**
@@ -64,12 +67,15 @@ namespace perideal
       if constexpr (!deformed)
         return families->position[j] - families->position[i];
       else
-        {
-          dealii::Tensor<1, dim> result;
-          for (int d = 0; d < dim; ++d)
-            result[d] = deformation.scale[slot] * (positions[j].value[d] - positions[i].value[d]);
-          return result;
-        }
+        return deformation.scale[slot] * present_bond(i, j);
+    }
+    /// That along which displacements count in the sums of families.
+    dealii::Tensor<1, dim> vector_in_sums(const LocalIndex i, const LocalIndex j, const BondIndex slot) const
+    {
+      if constexpr (!deformed)
+        return bond_vector(i, j, slot);
+      else
+        return deformation.of_sums()[slot] * present_bond(i, j);
     }
 
     std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> weights;
@@ -82,6 +88,14 @@ namespace perideal
     dealii::AlignedVector<NodeRecord> kinds;
 
   private:
+    dealii::Tensor<1, dim> present_bond(const LocalIndex i, const LocalIndex j) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (int d = 0; d < dim; ++d)
+        result[d] = positions[j].value[d] - positions[i].value[d];
+      return result;
+    }
+
     void make_kinds();
 
     void import_displacement(const NodalVector &displacement) const;

@@ -19,7 +19,7 @@ namespace perideal
     explicit ZonedTangent(const std::shared_ptr<ConsistentOperator<dim>> &cells);
 
     /// @param force a ZonedForce of the same cells
-    void linearise(const BondForce<dim> &force, const bool secant = false) override;
+    void linearise(const BondForce<dim> &force, const Slope slope = Slope::tangent) override;
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
@@ -28,8 +28,8 @@ namespace perideal
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
     void                                assemble(const AddBlock &add) const override;
     std::vector<double>                 dilatation() const override { return cells->dilatation(); }
-    bool                                is_symmetric() const override { return true; }
-    std::size_t                         memory_consumption() const override;
+    bool        is_symmetric() const override { return !bonds || bonds->is_symmetric(); }
+    std::size_t memory_consumption() const override;
 
   private:
     void add_bonds(NodalVector &force, const NodalVector &displacement) const;
