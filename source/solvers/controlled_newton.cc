@@ -26,8 +26,6 @@ namespace perideal
     constexpr double least_left = 1e-6;
     /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
     constexpr unsigned int first_secants = 8, more_secants = 5;
-    /// Iterations that may pass before the residual is half of what it was.
-    constexpr unsigned int most_without_progress = 10;
     /// Trials of an iteration by the tangent, each half as long as the one before.
     constexpr unsigned int n_trials = 2;
     /// What the residual after such an iteration may be over that before.
@@ -136,12 +134,12 @@ namespace perideal
             since_progress = 0;
             continue;
           }
-        if (residual < 0.5 * least_residual)
+        if (residual < 0.1 * least_residual)
           {
             least_residual = residual;
             since_progress = 0;
           }
-        if (since_progress++ == std::min(most_without_progress, this->controls.max_iterations))
+        if (since_progress++ == this->controls.max_iterations)
           return result;
         ++result.iterations;
         if (n_secants > 0)
@@ -163,6 +161,7 @@ namespace perideal
   {
     const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
     start              = {displacement, last.time + ahead * last.time_change};
+    previous.iteration = 0.;
     this->correction   = 0.;
     start.displacement.add(ahead, last.motion);
     place(0., 0.);
@@ -217,11 +216,13 @@ namespace perideal
     const double norm   = this->residual.l2_norm();
     by_loads            = secant ? &by_secant : &by_tangent;
     const double of_all = of_loads.l2_norm();
+    // The error of y counts by the change of t, which is about that of the iteration before.
+    const double of_time =
+      secant ? std::max(std::abs(now), control.small_time) : std::abs(previous.iteration);
+    const double most = (secant ? of_secant : of_tangent) * (of_time > 0 ? norm / of_time : of_all);
     if (!solve(*by_loads,
                of_loads,
-               secant ? std::max(of_secant * norm / std::max(std::abs(now), control.small_time),
-                                 least_left * of_all) :
-                        of_tangent * of_all,
+               std::max(secant ? most : std::min(most, of_tangent * of_all), least_left * of_all),
                result))
       return false;
     // As the secant has it, loads in proportion to t displace by t times what they do at t = 1.
@@ -236,7 +237,9 @@ namespace perideal
     if (!solve(this->correction, this->residual, (secant ? 2. * of_secant : of_tangent) * norm, result))
       return false;
     const double time_change = find_time_change(amount);
-    double       share       = 1.;
+    if (std::isfinite(time_change))
+      previous.iteration = time_change;
+    double share = 1.;
     for (unsigned int trial = 0; std::isfinite(time_change) && trial < n_trials; ++trial, share *= 0.5)
       {
         if (trial > 0)

@@ -15,17 +15,11 @@ namespace perideal
   {
     /// Share of |d.r| at the start that a step may leave.
     constexpr double slope_left = 0.5;
-    /// Forces of one search.
-    constexpr unsigned int max_trials = 20;
-    /// Iterations that may pass before the residual is half of what it was.
-    constexpr unsigned int most_in_vain = 5;
     /// Stiffness of the springs that hold loose nodes over that of the nodes in the whole body.
     constexpr double anchor_share = 1e-8;
-    /// What a linear system of bonds that soften may leave of its first residual.
-    constexpr double left_by_softening = 0.1;
-    /// The longest step over the one before that goes on as that did, and the residual over the largest load
-    /// from which it does.
-    constexpr double longest_start = 2., largest_mistake = 0.1;
+    /// What a linear system of bonds that soften may leave of its first residual, at most and over the square
+    /// of what the last iteration left of its own.
+    constexpr double left_by_softening = 0.1, left_over_square = 0.9;
   } // namespace
 
   template <int dim>
@@ -124,28 +118,10 @@ namespace perideal
   }
 
   template <int dim>
-  bool NewtonSolver<dim>::start_along_last_step(const NodalVector &external, const double time)
-  {
-    const double ahead = (time - this->last.time) / this->last.time_change;
-    if (!this->bonds.softening_bonds().softens() || this->breaks.wait ||
-        !(this->last.time_change > 0 && ahead > 0 && ahead <= longest_start))
-      return false;
-    displacement.add(ahead, this->last.motion);
-    held.set_boundary_values(this->loads, time, displacement);
-    if (this->face_values != nullptr)
-      this->face_values->set_time(this->loads, time);
-    this->compute_forces();
-    compute_residual(external);
-    if (residual.l2_norm() <= largest_mistake * std::sqrt(this->last.largest_load))
-      return true;
-    this->restore();
-    return false;
-  }
-
-  template <int dim>
   void NewtonSolver<dim>::start_in_place()
   {
     in_place = true;
+    norms    = {};
     linear.start_step();
     searching.n_in_vain      = 0;
     searching.least_residual = std::numeric_limits<double>::max();
@@ -199,6 +175,7 @@ namespace perideal
         null_space.project(residual);
       }
     const MPI_Comm communicator = displacement.get_mpi_communicator();
+    searching.earlier_residual  = norms.residual;
     norms.residual              = residual.norm_sqr();
     norms.reaction              = dealii::Utilities::MPI::sum(squares[0], communicator);
     norms.load                  = dealii::Utilities::MPI::sum(squares[1], communicator);
@@ -254,52 +231,16 @@ namespace perideal
   template <int dim>
   bool NewtonSolver<dim>::solve(EquilibriumStep &result, const bool descends)
   {
-    const double least = descends ? left_by_softening : 0.;
-    correction         = 0.;
+    correction   = 0.;
+    double least = descends ? left_by_softening : 0.;
+    if (searching.earlier_residual > 0)
+      least = std::min(least, left_over_square * norms.residual / searching.earlier_residual);
     const LinearSolve solving =
       linear.solve(correction, residual, std::min(std::max(relative_tolerance(), least), 0.5), descends);
     result.linear_iterations += solving.iterations;
     if (!solving.converged)
       result.problem = "the linear solver (" + linear.name() + ") did not converge";
     return solving.converged;
-  }
-
-  template <int dim>
-  bool NewtonSolver<dim>::iterate_softening(const NodalVector &external, EquilibriumStep &result)
-  {
-    if (norms.residual < 0.25 * searching.least_residual)
-      {
-        searching.least_residual = norms.residual;
-        searching.n_in_vain      = 0;
-      }
-    if (searching.n_in_vain < most_in_vain)
-      {
-        ++searching.n_in_vain;
-        linearise(Slope::tangent);
-        if (solve(result, true) && search(external, 1))
-          return true;
-      }
-    if (!may_jump)
-      {
-        result.problem = "the path turns back";
-        return false;
-      }
-    searching.n_in_vain = 0;
-    // There is no equilibrium nearby. What has softened until here stays so.
-    this->extend_bonds();
-    this->judge(external);
-    compute_residual(external);
-    linearise(Slope::secant);
-    if (!solve(result, true))
-      return false;
-    result.problem.clear();
-    // Bonds that open and close would alternate without a search.
-    if (!search(external, max_trials))
-      {
-        displacement += correction;
-        this->compute_forces();
-      }
-    return true;
   }
 
   template <int dim>

@@ -35,8 +35,7 @@ namespace perideal
       "Newton iterations",
       newton_iterations,
       "Iterations after which an equilibrium of quasi static has failed, > 0; they are counted "
-      "anew after every break; under Control other than loads, after each that halves the residual, and "
-      "more than ten are not taken",
+      "anew after every break, under Control other than loads also where a tenth of the residual is left",
       Integer(1));
     prm.add_parameter(
       "Step halvings",

@@ -8,6 +8,7 @@ perideal_room(solvers
     explicit_dynamics.cc
     linear_solver.cc
     newton.cc
+    newton_softening.cc
     preconditioner_choice.cc
     solver_parameters.cc
     sub_steps.cc

@@ -122,10 +122,10 @@ namespace perideal
     };
     Start start;
     /// The controlled quantity at the last equilibrium and its change in the step there; by how much unit t
-    /// changes it, as read last, or zero.
+    /// changes it, as read last, or zero; the change of t in the last iteration of the step, or zero.
     struct Previous
     {
-      double amount = 0, reading = 0, by_time = 0;
+      double amount = 0, reading = 0, by_time = 0, iteration = 0;
     };
     Previous previous;
   };

@@ -28,9 +28,10 @@ namespace perideal
    * Where bonds soften, the tangent is that of bonds that go on to do so, as long as it leads on. Where it
    * does not, as when a crack jumps, an iteration seeks the equilibrium of the bonds as they have softened
    * until then and lets them soften further there, for good: that linear system is positive definite, and
-   * what is left of bonds only falls. The linear systems are solved to a tenth only, since bonds that begin
-   * to soften or unload leave more than that, and, where CG does, no further than along directions in which
-   * energy is stored: so the step descends.
+   * what is left of bonds only falls. The linear systems are solved to a tenth first, since bonds that
+   * begin to soften or unload leave more than that, and then to what the last iteration left, squared
+   * (Eisenstat and Walker, SIAM Journal on Scientific Computing 17, 16-32, 1996, choice 2); and, where CG
+   * does, no further than along directions in which energy is stored: so the step descends.
    *
    * Where bonds break, fragments may become disconnected from the supports, which makes the tangent singular:
    * springs of 1e-8 of their stiffness hold each of their nodes where it was then. No load acts on them but
@@ -112,6 +113,9 @@ namespace perideal
     /// Holds the nodes that are disconnected from the supports. Collective.
     void anchor();
 
+    /// Forces of one search.
+    static constexpr unsigned int max_trials = 20;
+
     /// iterate() of bonds that soften, with supports in place.
     bool iterate_softening(const NodalVector &external, EquilibriumStep &result);
     /// Moves along the step as far as it helps; false, with the body where it was, where nothing did.
@@ -133,13 +137,13 @@ namespace perideal
     bool                                 in_place = true;
     typename EquilibriumPath<dim>::Norms norms    = {};
 
-    /// Where a line search begins; of bonds that soften, the least squared residual of the step [N^2], and
-    /// how long it has been.
+    /// Where a line search begins; the squared residual before the last iteration [N^2], or zero; of bonds
+    /// that soften, the least one of the step, and how long it has been.
     struct Search
     {
       NodalVector  start;
-      unsigned int n_in_vain      = 0;
-      double       least_residual = 0;
+      unsigned int n_in_vain        = 0;
+      double       earlier_residual = 0, least_residual = 0;
     };
     Search searching;
   };

@@ -92,7 +92,7 @@ namespace perideal
       {
         if (left.share == 1.)
           return false;
-        const double whole   = weights->stiffness[weights->at(slot)];
+        const double whole     = weights->stiffness[weights->at(slot)];
         const double stretched = 1. / deformation.scale[slot];
         const double by_length = deformation.stiffness[slot] - whole; // -tension/|xi|^2
         deformation.scale[slot] *= left.share;
