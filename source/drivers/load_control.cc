@@ -24,7 +24,7 @@ namespace perideal
     /// Share of the largest step that may be missing at the end of one.
     constexpr double nearly_there = 0.03;
     /// Shortest load step over the largest.
-    constexpr double shortest = 1e-4;
+    constexpr double shortest = 0.02;
     /// Strain energy over the largest at which a body bears nothing any more.
     constexpr double nothing_left = 1e-3;
   } // namespace

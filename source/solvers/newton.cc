@@ -244,7 +244,8 @@ namespace perideal
   }
 
   template <int dim>
-  bool NewtonSolver<dim>::search(const NodalVector &external, const unsigned int n_uphill)
+  bool
+  NewtonSolver<dim>::search(const NodalVector &external, const unsigned int n_uphill, const double longest)
   {
     const double norm = residual.l2_norm(), slope = correction * residual;
     searching.start = displacement;
@@ -260,23 +261,26 @@ namespace perideal
         if (is_finite && (now <= (1 - 1e-4 * share) * norm || now <= this->rounding.force ||
                           (slope > 0 && std::abs(slope_now) <= slope_left * slope)))
           return true;
-        if (!is_finite || slope <= 0)
-          share *= is_finite ? 0.5 : 0.25;
-        else if (slope_now < 0)
+        if (slope <= 0 || (!is_finite && low == 0.))
+          {
+            share *= is_finite ? 0.5 : 0.25;
+            continue;
+          }
+        if (!is_finite || slope_now < 0)
           {
             high       = share;
-            high_slope = slope_now;
+            high_slope = is_finite ? slope_now : -low_slope;
           }
         else
           {
-            // The energy still falls, by all that can be tried.
-            if (high == 0.)
-              return true;
             low       = share;
             low_slope = slope_now;
           }
-        if (is_finite && slope > 0)
-          share = low + (high - low) * std::clamp(low_slope / (low_slope - high_slope), 0.1, 0.9);
+        // The energy still falls, as far as was tried.
+        if (high == 0. && share >= longest)
+          return true;
+        share = high == 0. ? 2. * share :
+                             low + (high - low) * std::clamp(low_slope / (low_slope - high_slope), 0.1, 0.9);
       }
     displacement = searching.start;
     this->compute_forces();

@@ -11,6 +11,8 @@ namespace perideal
   {
     /// Iterations that may pass before the residual is half of what it was.
     constexpr unsigned int most_in_vain = 5;
+    /// How often over a step is gone that softens bonds for good, while the energy falls.
+    constexpr double longest_step = 16.;
     /// The longest step over the one before that goes on as that did, and the residual over the largest load
     /// from which it does.
     constexpr double longest_start = 2., largest_mistake = 0.1;
@@ -64,8 +66,8 @@ namespace perideal
     if (!solve(result, true))
       return false;
     result.problem.clear();
-    // Bonds that open and close would alternate without a search.
-    if (!search(external, max_trials))
+    // Bonds that open and close would alternate without a search; a crack that jumps goes far.
+    if (!search(external, max_trials, longest_step))
       {
         displacement += correction;
         this->compute_forces();

@@ -28,8 +28,9 @@ namespace perideal
    * Where bonds soften, the tangent is that of bonds that go on to do so, as long as it leads on. Where it
    * does not, as when a crack jumps, an iteration seeks the equilibrium of the bonds as they have softened
    * until then and lets them soften further there, for good: that linear system is positive definite, and
-   * what is left of bonds only falls. The linear systems are solved to a tenth first, since bonds that
-   * begin to soften or unload leave more than that, and then to what the last iteration left, squared
+   * what is left of bonds only falls. A step there is gone over again and again while the energy falls as
+   * steeply, as it does where a crack runs away. The linear systems are solved to a tenth first, since bonds
+   * that begin to soften or unload leave more than that, and then to what the last iteration left, squared
    * (Eisenstat and Walker, SIAM Journal on Scientific Computing 17, 16-32, 1996, choice 2); and, where CG
    * does, no further than along directions in which energy is stored: so the step descends.
    *
@@ -121,7 +122,9 @@ namespace perideal
     /// Moves along the step as far as it helps; false, with the body where it was, where nothing did.
     /// Collective.
     /// @param n_uphill trials where the energy does not fall at the beginning of the step
-    bool search(const NodalVector &external, const unsigned int n_uphill);
+    /// @param longest how often over the step is gone where the energy falls by more than half of its slope
+    /// still
+    bool search(const NodalVector &external, const unsigned int n_uphill, const double longest = 1.);
 
     /// The springs that hold disconnected nodes: where they are at rest [m], how stiff the nodes are in the
     /// whole body [N/m], and how many nodes they hold.
