@@ -18,7 +18,8 @@ namespace perideal
    *
    * With the residual r, the stiffness K of the bonds and the force q on the nodes by unit t, of loads and
    * supports, an iteration solves K x = r and K y = q, moves by x + y dt, and takes the dt with which the
-   * controlled quantity, read at the moved body and not linearised, is what it should be.
+   * controlled quantity, read at the moved body and not linearised, is what it should be. Near a limit of the
+   * loads x and y dt nearly cancel: y is solved until its error times dt is what may be left of r.
    *
    * Where bonds soften, K is at first the secant: what the bonds have left, which is positive definite and
    * leads to the equilibrium from afar, by about .6 of the residual an iteration; then the tangent, which
