@@ -24,10 +24,12 @@ namespace perideal
     constexpr double of_secant = 0.2, of_tangent = 0.01;
     /// The least that is asked of a solve with the secant for the loads, over these.
     constexpr double least_left = 1e-6;
-    /// Iterations by the secant at first, after which the tangent mostly leads on, and where it does not.
+    /// Iterations by the secant at first where dissipated energy is controlled, after which the tangent
+    /// mostly leads on, and where it does not.
     constexpr unsigned int first_secants = 8, more_secants = 5;
-    /// Trials of an iteration by the tangent, each half as long as the one before.
-    constexpr unsigned int n_trials = 2;
+    /// Trials of an iteration by the tangent, each half as long as the one before: where a gauge is
+    /// controlled, and dissipated energy, of which secants know more.
+    constexpr unsigned int n_by_gauge = 4, n_by_dissipation = 2;
     /// What the residual after such an iteration may be over that before.
     constexpr double largest_left = 0.9;
     /// Readings of what is controlled that find a change of t.
@@ -94,7 +96,7 @@ namespace perideal
     predict(amount);
     EquilibriumStep result;
     const bool      softens   = this->bonds.softening_bonds().softens();
-    unsigned int    n_secants = softens ? first_secants : 0, since_progress = 0;
+    unsigned int    n_secants = softens && !control.gauge ? first_secants : 0, since_progress = 0;
     double          least_residual = std::numeric_limits<double>::max();
     while (true)
       {
@@ -239,7 +241,8 @@ namespace perideal
     const double time_change = find_time_change(amount);
     if (std::isfinite(time_change))
       previous.iteration = time_change;
-    double share = 1.;
+    const unsigned int n_trials = control.gauge ? n_by_gauge : n_by_dissipation;
+    double             share    = 1.;
     for (unsigned int trial = 0; std::isfinite(time_change) && trial < n_trials; ++trial, share *= 0.5)
       {
         if (trial > 0)

@@ -21,11 +21,12 @@ namespace perideal
    * controlled quantity, read at the moved body and not linearised, is what it should be. Near a limit of the
    * loads x and y dt nearly cancel: y is solved until its error times dt is what may be left of r.
    *
-   * Where bonds soften, K is at first the secant: what the bonds have left, which is positive definite and
-   * leads to the equilibrium from afar, by about .6 of the residual an iteration; then the tangent, which
-   * finishes. Where the tangent does not lead on, since bonds change between softening, unloading and
-   * closing, some more secants do. No iterate leaves a trace in the bonds: they are judged at the
-   * equilibrium.
+   * Where bonds soften and dissipated energy is controlled, K is at first the secant: what the bonds have
+   * left, which is positive definite and leads to the equilibrium from afar, by about .6 of the residual an
+   * iteration; then the tangent, which finishes. Where a gauge is controlled, the tangent leads there from
+   * the start: the notched beam takes 138 iterations, and 724 by secants first. Where the tangent does not
+   * lead on, since bonds change between softening, unloading and closing, some more secants do. No iterate
+   * leaves a trace in the bonds: they are judged at the equilibrium.
    */
   template <int dim>
   class ControlledNewton : public NewtonSolver<dim>
