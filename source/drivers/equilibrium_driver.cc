@@ -240,12 +240,27 @@ namespace perideal
           problem.run.screen << text << std::endl;
       }
 
-      /// Goes on from the equilibrium of one time to that of another.
+      /// Goes on from the equilibrium of one time to that of another; as often as bonds take the place of
+      /// cells on the way, for loads act on nodes there.
       EquilibriumStep find_equilibrium(const std::uint64_t number, const double from, const double time)
       {
         const Timings::Scope scope(problem.run.timings, "solve");
-        const unsigned int   version = problem.force->version();
-        const std::string    what    = "load step " + std::to_string(number) + " of " +
+        EquilibriumStep      result;
+        unsigned int         version = 0;
+        do
+          {
+            version             = problem.force->version();
+            EquilibriumStep now = approach_equilibrium(number, from, time);
+            now.add_before(result);
+            result = now;
+          }
+        while (result.converged && problem.force->version() != version);
+        return result;
+      }
+
+      EquilibriumStep approach_equilibrium(const std::uint64_t number, const double from, const double time)
+      {
+        const std::string what = "load step " + std::to_string(number) + " of " +
                                  std::to_string(solver.n_load_steps()) + ", " +
                                  std::to_string(path->n_broken()) + " broken bonds";
         const double end = time_of(solver.n_load_steps());
@@ -259,12 +274,7 @@ namespace perideal
         progress->clear();
         if (result.converged)
           work_of_heating += heating.work();
-        if (!result.converged || problem.force->version() == version)
-          return result;
-        // Where bonds have taken the place of cells, loads act on nodes.
-        EquilibriumStep again = find_equilibrium(number, from, time);
-        again.add_before(result);
-        return again;
+        return result;
       }
 
       void apply_loads(const double time)

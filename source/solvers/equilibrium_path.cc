@@ -38,6 +38,19 @@ namespace perideal
         result.local_element(k) = support_force(held, k, external, internal);
       return result;
     }
+
+    /// Forces of loads and bonds on the free components [N], zero in held ones.
+    template <int dim>
+    NodalVector
+    free_forces(const DirichletNodes<dim> &held, const NodalVector &external, const NodalVector &internal)
+    {
+      NodalVector result(internal);
+      result += external;
+      for (std::size_t k = 0; k < held.mask().size(); ++k)
+        if (held.mask()[k])
+          result.local_element(k) = 0.;
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -64,6 +77,7 @@ namespace perideal
                                 &increment,
                                 &last.displacement,
                                 &last.external,
+                                &last.imbalance,
                                 &last.motion,
                                 &last.support_force})
       bonds.initialize(*vector);
@@ -173,7 +187,7 @@ namespace perideal
     struct LastEquilibrium
     {
       double                              strain;
-      NodalVector                         support_force;
+      NodalVector                         support_force, imbalance;
       std::vector<dealii::Tensor<1, dim>> face_support_force;
     };
     const auto last_seen_now = [&] {
@@ -183,8 +197,10 @@ namespace perideal
         values_now.push_back(face_values->entries()[e].value);
       restore();
       bonds.compute(force, displacement);
-      LastEquilibrium result{
-        bonds.strain_energy(), support_forces(held, last.external, force), bonds.support_forces()};
+      LastEquilibrium result{bonds.strain_energy(),
+                             support_forces(held, last.external, force),
+                             free_forces(held, last.external, force),
+                             bonds.support_forces()};
       displacement = now;
       if (face_values != nullptr)
         face_values->set_values(values_now);
@@ -214,6 +230,7 @@ namespace perideal
       {
         last.support_force      = after.support_force;
         last.face_support_force = after.face_support_force;
+        last.imbalance          = after.imbalance;
       }
     return true;
   }
@@ -288,21 +305,25 @@ namespace perideal
   }
 
   template <int dim>
-  double EquilibriumPath<dim>::work_since(const NodalVector &external, const NodalVector &internal) const
+  typename EquilibriumPath<dim>::Work
+  EquilibriumPath<dim>::work_since(const NodalVector &external, const NodalVector &internal) const
   {
-    double work = 0;
+    Work work;
     for (std::size_t k = 0; k < held.mask().size(); ++k)
       {
         const double p = external.local_element(k), support = support_force(held, k, external, internal);
         const double moved = displacement.local_element(k) - last.displacement.local_element(k);
-        work +=
+        work.external +=
           0.5 * (p + support + last.external.local_element(k) + last.support_force.local_element(k)) * moved;
+        work.switched += 0.5 * last.imbalance.local_element(k) * moved;
       }
     const auto at_faces = bonds.support_forces();
     for (std::size_t e = 0; e < at_faces.size(); ++e)
-      work += 0.5 * ((at_faces[e] + last.face_support_force[e]) *
-                     (face_values->entries()[e].value - last.face_value[e]));
-    return dealii::Utilities::MPI::sum(work, displacement.get_mpi_communicator());
+      work.external += 0.5 * ((at_faces[e] + last.face_support_force[e]) *
+                              (face_values->entries()[e].value - last.face_value[e]));
+    work.external = dealii::Utilities::MPI::sum(work.external, displacement.get_mpi_communicator());
+    work.switched = dealii::Utilities::MPI::sum(work.switched, displacement.get_mpi_communicator());
+    return work;
   }
 
   template <int dim>
@@ -310,12 +331,13 @@ namespace perideal
                                      const NodalVector &internal,
                                      const double       strain_energy)
   {
-    const double work = work_since(external, internal);
+    const Work work = work_since(external, internal);
     increment += displacement;
     increment -= last.displacement;
-    last.energy.external += work;
+    last.energy.external += work.external;
+    last.energy.switched += work.switched;
     if (breaks.in_segment)
-      last.energy.dissipated += work - (strain_energy - last.energy.strain);
+      last.energy.dissipated += work.external - work.switched - (strain_energy - last.energy.strain);
     last.energy.strain = strain_energy;
     breaks.in_segment  = false;
     keep(external, internal);
@@ -333,6 +355,7 @@ namespace perideal
       }
     last.displacement = displacement;
     last.external     = external;
+    last.imbalance    = 0.;
   }
 
   PERIDEAL_INSTANTIATE_CLASS(EquilibriumPath)

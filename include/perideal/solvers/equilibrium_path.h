@@ -160,7 +160,8 @@ namespace perideal
     /// not in its bonds [J]. Collective.
     double dissipated_since(const NodalVector &external) const
     {
-      return work_since(external, force) - (bonds.strain_energy() - last.energy.strain);
+      const Work work = work_since(external, force);
+      return work.external - work.switched - (bonds.strain_energy() - last.energy.strain);
     }
 
     BondForce<dim>            &bonds;
@@ -198,10 +199,11 @@ namespace perideal
 
     /// The last equilibrium: forces are those of loads and supports [N], the largest load the square of the
     /// largest norm of loads or reactions at any equilibrium so far [N^2]; the motion in the step there [m],
-    /// when it was and by how much it changed the time.
+    /// when it was and by how much it changed the time. Once bonds have taken the place of cells it is none
+    /// any more: the imbalance is the force on free components there then [N].
     struct Equilibrium
     {
-      NodalVector                         displacement, external, support_force;
+      NodalVector                         displacement, external, support_force, imbalance;
       std::vector<dealii::Tensor<1, dim>> face_support_force, face_value;
       EnergyBudget                        energy;
       double                              largest_load = 0;
@@ -228,8 +230,14 @@ namespace perideal
   private:
     /// Keeps displacement, loads, supports and values at faces as those of the last equilibrium.
     void keep(const NodalVector &external, const NodalVector &internal);
-    /// Work of loads and supports since the last equilibrium, by the trapezoidal rule [J]. Collective.
-    double work_since(const NodalVector &external, const NodalVector &internal) const;
+    /// By the trapezoidal rule, since the last equilibrium [J]: the work of loads and supports, and what of
+    /// that of its imbalance is lost as the body comes to rest.
+    struct Work
+    {
+      double external = 0, switched = 0;
+    };
+    /// Collective.
+    Work work_since(const NodalVector &external, const NodalVector &internal) const;
   };
 } // namespace perideal
 
