@@ -4,6 +4,7 @@ perideal_room(solvers
   SOURCES
     controlled_newton.cc
     dynamic_relaxation.cc
+    equilibrium_balance.cc
     equilibrium_path.cc
     explicit_dynamics.cc
     linear_solver.cc

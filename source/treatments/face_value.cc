@@ -71,8 +71,12 @@ namespace perideal
 
       void add_tractions(const Loads<dim> &given, const double time, NodalVector &force) const override
       {
-        const GradientMoments<dim>              &moments = *this->bonds.moments;
-        typename GradientMoments<dim>::CellLoads loads(moments.n_owned());
+        if (std::none_of(given.conditions.begin(), given.conditions.end(), [](const auto &condition) {
+              return condition.prescribes_traction();
+            }))
+          return;
+        const GradientMoments<dim> &moments = *this->bonds.moments;
+        PolynomialLoads<dim>        loads(moments.cell_polynomials());
         visit_loaded_faces(given,
                            moments.faces().boundary_points(),
                            [&](const BoundaryCondition<dim> &condition, const BoundaryPoint<dim> &point) {
@@ -81,7 +85,7 @@ namespace perideal
                                this->bonds.shares ? this->bonds.shares->of(point.node) : 1.;
                              const auto pull =
                                area * Loads<dim>::traction(condition, point.point, point.area / area, time);
-                             moments.add_at(loads, point.node, point.point, share * pull);
+                             loads.add(point.node, point.point, share * pull);
                              for (int d = 0; d < dim; ++d)
                                force.local_element(dim * point.node + d) += (1. - share) * pull[d];
                            });

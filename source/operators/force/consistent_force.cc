@@ -19,6 +19,7 @@ namespace perideal
     , has_small_strain(this->laws.are_linear())
   {
     this->initialize(last);
+    this->initialize(added);
   }
 
   template <int dim>
@@ -79,25 +80,57 @@ namespace perideal
   }
 
   template <int dim>
+  void ConsistentForce<dim>::add_force(NodalVector &force)
+  {
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      turn_into_stress(i);
+    moments->transpose(added);
+    force -= added;
+    const auto at_faces = moments->support_forces();
+    support.resize(at_faces.size());
+    for (std::size_t e = 0; e < at_faces.size(); ++e)
+      support[e] += at_faces[e];
+  }
+
+  template <int dim>
   void ConsistentForce<dim>::compute(NodalVector &force, const NodalVector &displacement)
   {
     this->move_nodes(displacement);
     last = displacement;
     evaluate();
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      turn_into_stress(i);
-    moments->transpose(force);
-    force *= -1.;
-    support = moments->support_forces();
+    force = 0.;
+    support.clear();
+    add_force(force);
+  }
+
+  template <int dim>
+  double ConsistentForce<dim>::change_shares(const std::vector<double> &of_nodes, NodalVector &force)
+  {
+    // Force and energy are linear in the shares: what changes is that of their change.
+    std::vector<double> more(of_nodes);
+    for (LocalIndex i = 0; i < more.size(); ++i)
+      more[i] -= bonds->share(i);
+    bonds->set_shares(more);
+    evaluate();
+    const double energy = evaluated_energy();
+    add_force(force);
+    bonds->set_shares(of_nodes);
+    return energy;
   }
 
   template <int dim>
   double ConsistentForce<dim>::strain_energy() const
   {
     evaluate();
+    return evaluated_energy();
+  }
+
+  template <int dim>
+  double ConsistentForce<dim>::evaluated_energy() const
+  {
     double result = has_small_strain ? bonds->energy_small() : bonds->energy_finite();
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      if (const double of_point = points->weight(i); of_point > 0)
+      if (const double of_point = points->weight(i); of_point != 0.)
         points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
           result += of_point * law_at(i, p).energy(gradient);
         });
@@ -126,7 +159,7 @@ namespace perideal
   template <int dim>
   std::size_t ConsistentForce<dim>::memory_consumption() const
   {
-    return this->breaking_memory() + points->memory_consumption() + last.memory_consumption() +
+    return this->breaking_memory() + points->memory_consumption() + 2 * last.memory_consumption() +
            laws.memory_consumption();
   }
 

@@ -99,6 +99,9 @@ namespace perideal
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         {
+          // In a zone, most bonds of the rows around it have no weight.
+          if (!own_force_weights && stiffness(slot) == 0.)
+            continue;
           const LocalIndex j     = bonds.neighbour[slot];
           const double     eps   = motion(slot, i, j, at_rest).eps;
           const double     share = j < n_owned ? 1. : 0.5, carried = softening.share(slot) * eps;

@@ -24,6 +24,13 @@ namespace perideal
         chosen[i] = chosen[i] || more[i];
     }
 
+    std::vector<double> shares_of_cells(std::vector<double> of_bonds)
+    {
+      for (double &share : of_bonds)
+        share = 1. - share;
+      return of_bonds;
+    }
+
     std::vector<bool> opposite(std::vector<bool> nodes)
     {
       nodes.flip();
@@ -110,7 +117,8 @@ namespace perideal
     for (LocalIndex i = 0; i < limit.size(); ++i)
       limit[i] = limits.first_strain(i);
     onset = StressOnset<dim>(limits.criterion, families->n_owned());
-    scale();
+    cells->set_shares(shares_of_cells(zone.share()));
+    scale_bonds();
   }
 
   template <int dim>
@@ -159,12 +167,8 @@ namespace perideal
   }
 
   template <int dim>
-  void ZonedForce<dim>::scale()
+  void ZonedForce<dim>::scale_bonds()
   {
-    std::vector<double> of_cells(zone.share());
-    for (double &share : of_cells)
-      share = 1. - share;
-    cells->set_shares(of_cells);
     scaled = whole->scaled(zone.share());
     bonds->take_weights(*scaled, zone.share());
   }
@@ -172,17 +176,18 @@ namespace perideal
   template <int dim>
   bool ZonedForce<dim>::grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement)
   {
+    change.force  = 0.;
+    change.energy = 0.;
     NodalVector of_bonds(of_cells);
     const auto  look = [&](const double sign) {
       bonds->judge_bonds(Judgement::on_trial);
       bonds->compute(of_bonds, displacement);
       bonds->judge_bonds(judgement);
-      change.force.add(sign, of_cells, sign, of_bonds);
-      change.energy -= sign * strain_energy();
+      change.force.add(sign, of_bonds);
+      change.energy -= sign * bonds->strain_energy();
     };
-    change.force  = 0.;
-    change.energy = 0.;
-    look(-1.);
+    if (zone.is_there())
+      look(-1.);
     change.is_there = zone.grow(nodes);
     if (!change.is_there)
       return false;
@@ -198,8 +203,10 @@ namespace perideal
         choose(*families, families->with_members(counts), making.chosen);
         make_bonds();
       }
-    scale();
-    cells->compute(of_cells, displacement);
+    scale_bonds();
+    change.force -= of_cells;
+    change.energy -= cells->change_shares(shares_of_cells(zone.share()), of_cells);
+    change.force += of_cells;
     look(1.);
     return true;
   }
@@ -290,7 +297,8 @@ namespace perideal
       [this] { return zone.state(); },
       [this](const std::vector<double> &values) {
         zone.restore(values);
-        scale();
+        cells->set_shares(shares_of_cells(zone.share()));
+        scale_bonds();
       });
     BreakingBonds<dim>::register_bonds(
       state, [this]() -> BreakingBonds<dim> & { return dynamic_cast<BreakingBonds<dim> &>(*bonds); });

@@ -30,10 +30,10 @@ namespace perideal
   template <int dim>
   void FaceSprings<dim>::compute(NodalVector &force, const NodalVector &displacement) const
   {
-    typename GradientMoments<dim>::CellLoads loads(moments->n_owned());
-    const auto                               values = moments->values_at(places, displacement);
+    PolynomialLoads<dim> loads(moments->cell_polynomials());
+    const auto           values = moments->values_at(places, displacement);
     for (std::size_t s = 0; s < springs.size(); ++s)
-      moments->add_at(loads, places[s].cell, places[s].point, springs[s].stiffness * values[s]);
+      loads.add(places[s].cell, places[s].point, springs[s].stiffness * values[s]);
     this->initialize(force);
     moments->add_nodal_forces(loads, force);
   }

@@ -212,6 +212,8 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
         {
+          if (stiffness_of[k] == 0.)
+            continue;
           const LocalIndex  j           = bonds.neighbour[k];
           const NodeRecord *near        = work.states.data() + n_records * i;
           const NodeRecord *far         = work.states.data() + n_records * j;

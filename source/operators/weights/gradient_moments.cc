@@ -156,69 +156,33 @@ namespace perideal
   }
 
   template <int dim>
-  GradientMoments<dim>::CellLoads::CellLoads(const LocalIndex n_cells)
-    : mean(n_cells)
-    , gradient(n_cells)
-    , polynomial(n_cells)
-  {
-  }
-
-  template <int dim>
-  void GradientMoments<dim>::add_at(CellLoads                    &loads,
-                                    const LocalIndex              cell,
-                                    const dealii::Point<dim>     &point,
-                                    const dealii::Tensor<1, dim> &force) const
-  {
-    std::array<double, Monomials<dim>::n> monomial;
-    Monomials<dim>::evaluate(point - polynomials->centroids()[cell], monomial);
-    for (unsigned int m = 0; m < n_coefficients; ++m)
-      loads.polynomial[cell][m] += monomial[m] * force;
-  }
-
-  template <int dim>
-  void GradientMoments<dim>::add_nodal_forces(const CellLoads &loads, NodalVector &force) const
-  {
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      for (int a = 0; a < dim; ++a)
-        {
-          const double volume = polynomials->volumes()[i];
-          // V w is 1/dim of the trace of H by faces less that by the polynomial.
-          const double on_trace        = loads.mean[i][a] / (dim * volume);
-          work.value_force[i].value[a] = 0.;
-          work.trace_force[i].value[a] = -on_trace;
-          for (int l = 0; l < dim; ++l)
-            {
-              gradient(i)[l].value[a] = loads.gradient[i][a][l] / volume;
-              for (int k = 0; k < dim; ++k)
-                moment(i)[dim * k + l].value[a] = k == l ? on_trace : 0.;
-            }
-        }
-    spread_to_faces();
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      for (unsigned int m = 0; m < n_coefficients; ++m)
-        for (int a = 0; a < dim; ++a)
-          work.polynomial[n_coefficients * i + m].value[a] += loads.polynomial[i][m][a];
-    NodalVector sum(force);
-    spread_to_nodes(sum);
-    for (std::size_t r = 0; r < dim * static_cast<std::size_t>(n_owned_cells); ++r)
-      force.local_element(r) += sum.local_element(r);
-  }
-
-  template <int dim>
   std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::add_body_forces(const Mesh<dim>  &mesh,
                                                                             const Nodes<dim> &nodes,
                                                                             const Loads<dim> &loads,
                                                                             const double      time,
                                                                             NodalVector      &force) const
   {
-    CellLoads  on_cells(n_owned_cells);
     const auto integrals = integrate_body_forces(mesh, nodes, polynomials->centroids(), loads, time);
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      {
-        on_cells.mean[i]     = integrals[i].force;
-        on_cells.gradient[i] = integrals[i].moment;
-      }
-    add_nodal_forces(on_cells, force);
+      for (int a = 0; a < dim; ++a)
+        {
+          const double volume = polynomials->volumes()[i];
+          // V w is 1/dim of the trace of H by faces less that by the polynomial.
+          const double on_trace        = integrals[i].force[a] / (dim * volume);
+          work.value_force[i].value[a] = 0.;
+          work.trace_force[i].value[a] = -on_trace;
+          for (int l = 0; l < dim; ++l)
+            {
+              gradient(i)[l].value[a] = integrals[i].moment[a][l] / volume;
+              for (int k = 0; k < dim; ++k)
+                moment(i)[dim * k + l].value[a] = k == l ? on_trace : 0.;
+            }
+        }
+    spread_to_faces();
+    NodalVector sum(force);
+    spread_to_nodes(sum);
+    for (std::size_t r = 0; r < dim * static_cast<std::size_t>(n_owned_cells); ++r)
+      force.local_element(r) += sum.local_element(r);
     return support_forces();
   }
 

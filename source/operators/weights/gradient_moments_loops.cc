@@ -30,6 +30,14 @@ namespace perideal
       prefetch(work.gradient.data() + dim * i, dim);
       prefetch(work.moment.data() + dim * dim * i, dim * dim);
     }
+
+    /// Whether the polynomial of a cell is closed, in whose list it is the n-th or the next one is.
+    template <int dim>
+    bool is_closed(const CellPolynomials<dim> &polynomials, const LocalIndex i, const std::size_t n)
+    {
+      const auto &cells = polynomials.closure().cells();
+      return n < cells.size() && cells[n] == i;
+    }
   } // namespace
 
   template <int dim>
@@ -223,44 +231,74 @@ namespace perideal
   }
 
   template <int dim>
+  void GradientMoments<dim>::spread_cell(const LocalIndex i, const std::size_t n) const
+  {
+    constexpr unsigned int n_terms  = Monomials<dim>::n_terms;
+    NodeRecord            *f        = work.displacement.data();
+    const auto            &rows     = polynomials->coefficients();
+    const auto            &first    = polynomials->first();
+    const NodeRecord      *acting   = work.polynomial.data() + n_coefficients * i;
+    const Lanes            on_value = lanes(acting[0]) + lanes(work.value_force[i]);
+    const Lanes            on_trace = (2. * polynomials->volumes()[i]) * lanes(work.trace_force[i]);
+    const auto             means = polynomials->means(i), of_unknown = polynomials->at_unknown(i);
+    Lanes                  c[n_terms];
+    for (unsigned int t = 0; t < n_terms; ++t)
+      c[t] = lanes(acting[1 + t]);
+    for (unsigned int p = 0; p < means.size(); ++p)
+      c[dim + p] += means[p] * on_trace - of_unknown[p] * on_value;
+    if (is_closed(*polynomials, i, n))
+      polynomials->closure().add_transposed(n, c);
+    Lanes own = on_value;
+    for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+      {
+        const double *row = rows[k].data();
+        Lanes         sum = row[0] * c[0];
+        for (unsigned int t = 1; t < n_terms; ++t)
+          sum += row[t] * c[t];
+        lanes(f[column[k]]) += sum;
+        own -= sum;
+      }
+    lanes(f[i]) += own;
+  }
+
+  template <int dim>
   void GradientMoments<dim>::spread_to_nodes(NodalVector &force) const
   {
-    constexpr unsigned int n_terms = Monomials<dim>::n_terms;
-    NodeRecord            *f       = work.displacement.data();
+    const NodeRecord *f = work.displacement.data();
     std::fill(work.displacement.begin(), work.displacement.end(), NodeRecord{});
-    const auto &rows    = polynomials->coefficients();
-    const auto &first   = polynomials->first();
-    const auto &closure = polynomials->closure();
-    auto        closed  = closure.cells().begin();
+    std::size_t n_closed = 0;
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
       {
-        const NodeRecord *acting   = work.polynomial.data() + n_coefficients * i;
-        const Lanes       on_value = lanes(acting[0]) + lanes(work.value_force[i]);
-        const Lanes       on_trace = (2. * polynomials->volumes()[i]) * lanes(work.trace_force[i]);
-        const auto        means = polynomials->means(i), of_unknown = polynomials->at_unknown(i);
-        Lanes             c[n_terms];
-        for (unsigned int t = 0; t < n_terms; ++t)
-          c[t] = lanes(acting[1 + t]);
-        for (unsigned int p = 0; p < means.size(); ++p)
-          c[dim + p] += means[p] * on_trace - of_unknown[p] * on_value;
-        if (closed != closure.cells().end() && *closed == i)
-          closure.add_transposed(closed++ - closure.cells().begin(), c);
-        Lanes own = on_value;
-        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
-          {
-            const double *row = rows[k].data();
-            Lanes         sum = row[0] * c[0];
-            for (unsigned int t = 1; t < n_terms; ++t)
-              sum += row[t] * c[t];
-            lanes(f[column[k]]) += sum;
-            own -= sum;
-          }
-        lanes(f[i]) += own;
+        spread_cell(i, n_closed);
+        n_closed += is_closed(*polynomials, i, n_closed) ? 1 : 0;
       }
     add_to_owners(*of_displacements, work.displacement, work.temporary);
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
       for (int d = 0; d < dim; ++d)
         force.local_element(dim * i + d) = f[i].value[d];
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::add_nodal_forces(const PolynomialLoads<dim> &loads, NodalVector &force) const
+  {
+    std::fill(work.displacement.begin(), work.displacement.end(), NodeRecord{});
+    const auto &closed = polynomials->closure().cells();
+    for (const auto &[i, of_coefficient] : loads.by_cell())
+      {
+        work.value_force[i] = work.trace_force[i] = NodeRecord{};
+        for (unsigned int m = 0; m < n_coefficients; ++m)
+          {
+            NodeRecord &acting = work.polynomial[n_coefficients * i + m];
+            acting             = NodeRecord{};
+            for (int a = 0; a < dim; ++a)
+              acting.value[a] = of_coefficient[m][a];
+          }
+        spread_cell(i, std::lower_bound(closed.begin(), closed.end(), i) - closed.begin());
+      }
+    add_to_owners(*of_displacements, work.displacement, work.temporary);
+    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+      for (int d = 0; d < dim; ++d)
+        force.local_element(dim * i + d) += work.displacement[i].value[d];
   }
 
   template <int dim>

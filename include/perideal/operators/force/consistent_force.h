@@ -77,10 +77,13 @@ namespace perideal
       laws.expand(*families, laws_in_space, of_cells);
     }
 
-    /// Scales the energy of cells and of the bonds that stabilise them, here and in operators that share
-    /// these.
+    /// Scales the energy of cells and of the bonds that stabilise them from now on, here and in operators
+    /// that share these. Collective.
     /// @param of_nodes by local node
     void set_shares(const std::vector<double> &of_nodes) { bonds->set_shares(of_nodes); }
+    /// The same, and adds to the force of the last compute() [N] what that changes of it. Collective.
+    /// @return what is stored more then [J], on all ranks
+    double change_shares(const std::vector<double> &of_nodes, NodalVector &force);
 
     /// The strain of an owned node at the last compute() [-]: Green's, of linear laws the small one.
     dealii::SymmetricTensor<2, dim> strain(const LocalIndex i) const { return bonds->strain(i); }
@@ -95,13 +98,17 @@ namespace perideal
     typename SymmetricPairs<dim>::Pairs strain_of(const dealii::Tensor<2, dim> &gradient) const;
     /// Puts the stress of a cell, and what its bonds do besides, in the places of gradient and moment.
     void turn_into_stress(const LocalIndex i) const;
+    /// Adds the force of what evaluate() has found, and that on supports.
+    void add_force(NodalVector &force);
+    /// The energy of what evaluate() has found [J].
+    double evaluated_energy() const;
 
     std::shared_ptr<const GradientMoments<dim>> moments;
     std::shared_ptr<ConsistentBonds<dim>>       bonds;
     std::shared_ptr<const CellPoints<dim>>      points;
     LawsOfNodes<dim>                            laws;
     bool                                        has_small_strain;
-    NodalVector                                 last;
+    NodalVector                                 last, added;
     std::vector<dealii::Tensor<1, dim>>         support;
   };
 } // namespace perideal

@@ -43,7 +43,7 @@ namespace perideal
     static constexpr double near_to_breaking = 0.5;
     /// Where one grows, nodes with so much of that make it grow too: of nodes that are equal, rounding does
     /// not choose one.
-    static constexpr double alike = 0.98;
+    static constexpr double alike = 0.8;
 
     /// Returns the weights of the whole families of some nodes, which will change.
     using Weigh =
@@ -124,8 +124,8 @@ namespace perideal
     bool grow(const std::vector<LocalIndex> &nodes, const NodalVector &displacement);
     /// Makes the bonds of the chosen families, with what is cut, broken and softened. Collective.
     void make_bonds();
-    /// Gives cells and bonds their shares. Collective.
-    void scale();
+    /// Gives bonds their shares. Collective.
+    void scale_bonds();
 
     std::unique_ptr<ConsistentForce<dim>>   cells;
     std::shared_ptr<const Families<dim>>    families;

@@ -114,7 +114,7 @@ namespace perideal
       dealii::Tensor<2, dim>                  sum;
       std::array<dealii::Tensor<2, dim>, dim> difference;
       // Of a cell that does not count nobody asks its law.
-      if (const double of_point = weight(i); of_point > 0)
+      if (const double of_point = weight(i); of_point != 0.)
         visit(moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
           const dealii::Tensor<2, dim> stress = of_point * stress_of(p, gradient);
           sum += stress;

@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/boundary/face_values.h>
+#include <perideal/operators/weights/polynomial_loads.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 #include <perideal/reconstruction/face_moments.h>
 
@@ -86,24 +87,8 @@ namespace perideal
     /// transpose().
     std::vector<dealii::Tensor<1, dim>> support_forces() const;
 
-    /// Forces by owned cell that act on a displacement besides those of the bonds.
-    struct CellLoads
-    {
-      explicit CellLoads(const LocalIndex n_cells);
-
-      /// On w_i [N], and on the gradient [N m].
-      std::vector<dealii::Tensor<1, dim>> mean;
-      std::vector<dealii::Tensor<2, dim>> gradient;
-      /// On the polynomial's coefficients, the value at the centroid first.
-      std::vector<std::array<dealii::Tensor<1, dim>, n_coefficients>> polynomial;
-    };
-    /// Adds a force at a point to those on the polynomial of its cell.
-    void add_at(CellLoads                    &loads,
-                const LocalIndex              cell,
-                const dealii::Point<dim>     &point,
-                const dealii::Tensor<1, dim> &force) const;
     /// Adds the forces on owned nodes that belong to loads [N]. Collective.
-    void add_nodal_forces(const CellLoads &loads, NodalVector &force) const;
+    void add_nodal_forces(const PolynomialLoads<dim> &loads, NodalVector &force) const;
 
     /// Adds the forces on owned nodes that come of the body force [N]. Collective.
     /// @return what of it acts on the prescribed values instead [N], by entry: in cells at a held boundary
@@ -163,6 +148,8 @@ namespace perideal
     void sum_over_faces(const AtFaces at_faces) const;
     void spread_to_faces() const;
     void spread_to_nodes(NodalVector &force) const;
+    /// Spreads what acts on the polynomial of one cell, which is the n-th of those that are closed, if any.
+    void spread_cell(const LocalIndex i, const std::size_t n) const;
     /// Prescribed value of an entry as asked for.
     Lanes prescribed_value(const std::size_t entry, const AtFaces at_faces) const;
 
