@@ -67,12 +67,7 @@ namespace perideal
     bool is_accepted(SceneParameters scene, const std::string &setting)
     {
       resolve(scene);
-      return std::none_of(rules().begin(),
-                          rules().end(),
-                          [&](const Rule &rule) {
-                            return rule.severity == Rule::Severity::refused && !rule.breaches(scene).empty();
-                          }) &&
-             (setting.empty() || has_use(scene, setting));
+      return refusals(scene).empty() && (setting.empty() || has_use(scene, setting));
     }
 
     /// The letters of the solvers with which the choice is accepted, in 2-D or in 3-D.

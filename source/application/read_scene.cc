@@ -195,32 +195,52 @@ namespace perideal
                    Traction::layer);
         }
     }
+
+    /// Puts what serves the scene best in the place of "automatic".
+    void choose(SceneParameters &scene)
+    {
+      using Use            = ModelParameters::Use;
+      const bool by_stress = scene.material.has_criterion() && scene.material.softens();
+      scene.model.resolve(scene.dimension,
+                          can_break(scene)                ? by_stress ? Use::stress_onset : Use::failure :
+                          scene.solver.is_linear_static() ? Use::statics :
+                                                            Use::motion,
+                          scene.solver.is_dynamic());
+      if (scene.model.stretch_formula == StretchFormula::automatic)
+        scene.model.stretch_formula = scene.material.softens() || scene.material.has_fracture_energies() ?
+                                        StretchFormula::bonds :
+                                        StretchFormula::published;
+      resolve_treatments(scene.loads, scene.model.is_consistent());
+      scene.loads.has_small_rotations = scene.solver.is_linear_static();
+      if (const double own = scene.model.form_traits().defaults.horizon_factor;
+          own > 0 && !has_fracture_zone(scene))
+        scene.nodes.horizon_factor = own;
+      if (scene.mesh.refine_layers == 0)
+        scene.mesh.refine_layers = layers_between_sizes(scene.nodes.horizon_factor);
+      // The consistent form leaves the choice to the mesh, unless it has families besides.
+      if (scene.nodes.horizon_shape == HorizonShape::automatic &&
+          (!scene.model.is_consistent() || has_fracture_zone(scene)))
+        scene.nodes.horizon_shape = HorizonShape::sphere;
+    }
   } // namespace
 
   void resolve(SceneParameters &scene)
   {
-    using Use            = ModelParameters::Use;
-    const bool by_stress = scene.material.has_criterion() && scene.material.softens();
-    scene.model.resolve(scene.dimension,
-                        can_break(scene)                ? by_stress ? Use::stress_onset : Use::failure :
-                        scene.solver.is_linear_static() ? Use::statics :
-                                                          Use::motion,
-                        scene.solver.is_dynamic());
-    if (scene.model.stretch_formula == StretchFormula::automatic)
-      scene.model.stretch_formula = scene.material.softens() || scene.material.has_fracture_energies() ?
-                                      StretchFormula::bonds :
-                                      StretchFormula::published;
-    resolve_treatments(scene.loads, scene.model.is_consistent());
-    scene.loads.has_small_rotations = scene.solver.is_linear_static();
-    if (const double own = scene.model.form_traits().defaults.horizon_factor;
-        own > 0 && !has_fracture_zone(scene))
-      scene.nodes.horizon_factor = own;
-    if (scene.mesh.refine_layers == 0)
-      scene.mesh.refine_layers = layers_between_sizes(scene.nodes.horizon_factor);
-    // The consistent form leaves the choice to the mesh, unless it has families besides.
-    if (scene.nodes.horizon_shape == HorizonShape::automatic &&
-        (!scene.model.is_consistent() || has_fracture_zone(scene)))
-      scene.nodes.horizon_shape = HorizonShape::sphere;
+    SceneParameters asked = scene;
+    choose(scene);
+    if (asked.model.form == scene.model.form || !scene.model.is_consistent() || !can_break(scene))
+      return;
+    // What the scene asks for besides may be nothing that the consistent form has.
+    const std::vector<std::string> refused = refusals(scene);
+    if (refused.empty())
+      return;
+    asked.model.form = scene.model.model->default_forms.otherwise;
+    choose(asked);
+    if (refusals(asked).size() >= refused.size())
+      return;
+    asked.model.why_this_form = "Material/Form = automatic is " + asked.model.form +
+                                " here, for consistent is not possible: " + refused.front();
+    scene = asked;
   }
 
   void read_scene(const ParameterFile &file, dealii::ParameterHandler &prm, SceneParameters &scene)
@@ -237,6 +257,8 @@ namespace perideal
         }))
       ask_for_constants(file, scene, mistakes);
     scene.warnings = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
+    if (!scene.model.why_this_form.empty())
+      scene.warnings.push_back(scene.model.why_this_form);
     for (const InputError &mistake : mistakes.list())
       if (!follows_from(mistake.parameter(), not_read) && !is_inherited(mistake.parameter(), file, mistakes))
         errors.add(file.locate(mistake));

@@ -137,6 +137,16 @@ namespace perideal
     }
   } // namespace
 
+  std::vector<std::string> refusals(const SceneParameters &scene)
+  {
+    std::vector<std::string> result;
+    for (const Rule &rule : rules())
+      if (rule.severity == Rule::Severity::refused)
+        for (const std::string &path : rule.breaches(scene))
+          result.push_back(path + ": " + rule.message);
+    return result;
+  }
+
   std::vector<std::string> apply_rules(const SceneParameters          &scene,
                                        const std::vector<std::string> &changed,
                                        const std::vector<std::string> &not_read,

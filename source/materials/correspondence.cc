@@ -106,7 +106,8 @@ namespace perideal
       result.name          = "correspondence";
       result.meaning       = "non-ordinary, the stresses of any Law, at large strain too";
       result.forms         = {consistent, family};
-      result.default_forms = {consistent.name, consistent.name, family.name, "energy", "extended ordinary"};
+      result.default_forms = {
+        consistent.name, consistent.name, family.name, family.name, "energy", "extended ordinary"};
       result.takes_any_symmetry = true;
       result.has_law            = true;
       result.declare            = &declare;

@@ -194,10 +194,11 @@ namespace perideal
       energy.has_multipliers        = true;
 
       ModelTraits result;
-      result.name             = "extended ordinary";
-      result.meaning          = "with multipliers that make families of any shape exact for uniform strain";
-      result.forms            = {consistent_form(), energy, paper};
-      result.default_forms    = {consistent_form().name, energy.name, energy.name, energy.name};
+      result.name          = "extended ordinary";
+      result.meaning       = "with multipliers that make families of any shape exact for uniform strain";
+      result.forms         = {consistent_form(), energy, paper};
+      result.default_forms = {
+        consistent_form().name, energy.name, consistent_form().name, energy.name, energy.name};
       result.critical_stretch = &ordinary_critical_stretch;
       result.declare          = &declare;
       return result;

@@ -92,10 +92,13 @@ namespace perideal
       "Form",
       form,
       "Force of the extended ordinary, the tensor involved and the correspondence model: automatic: "
-      "consistent in statics and for correspondence where nothing breaks, else energy, moment corrected or "
-      "family; consistent: strain from the faces of the mesh, bonds stabilise, symmetric, the most accurate, "
+      "consistent in statics, for correspondence where nothing breaks and for the extended ordinary model in "
+      "load steps where something can, unless the scene asks for what it does not have; else energy, moment "
+      "corrected or family; consistent: strain from the faces of the mesh, bonds stabilise, symmetric, the "
+      "most "
+      "accurate, "
       "with sharp precracks; where bonds soften by a Failure criterion, and in motion or load steps of the "
-      "extended ordinary model if it is asked for, cracks grow in it: there it turns into the energy form" +
+      "extended ordinary model, cracks grow in it: there it turns into the energy form" +
         meanings_of_forms(),
       Selection(pattern_of_forms()));
     prm.add_parameter(
@@ -126,10 +129,14 @@ namespace perideal
   void ModelParameters::resolve(const int dimension, const Use use, const bool moves)
   {
     if (form == automatic)
-      form = use == Use::statics                              ? model->default_forms.statics :
-             use == Use::motion                               ? model->default_forms.motion :
-             use == Use::stress_onset && grows_by_softening() ? consistent_form().name :
-                                                                model->default_forms.failure;
+      {
+        const auto &forms = model->default_forms;
+        form              = use == Use::statics                              ? forms.statics :
+                            use == Use::motion                               ? forms.motion :
+                            use == Use::stress_onset && grows_by_softening() ? consistent_form().name :
+                            moves                                            ? forms.otherwise :
+                                                                               forms.failure;
+      }
     const FormTraits &traits = form_traits();
     if (influence_function == automatic)
       influence_function = traits.defaults.influence_function;

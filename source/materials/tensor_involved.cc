@@ -190,10 +190,11 @@ namespace perideal
       surface_cure.solvers                 = {false, false, false};
 
       ModelTraits result;
-      result.name               = "tensor involved";
-      result.meaning            = "springs with tensors for stiffness, for solids of any symmetry";
-      result.forms              = {consistent_form(), one_point, moment_corrected, surface_cure};
-      result.default_forms      = {consistent_form().name, moment_corrected.name, moment_corrected.name};
+      result.name          = "tensor involved";
+      result.meaning       = "springs with tensors for stiffness, for solids of any symmetry";
+      result.forms         = {consistent_form(), one_point, moment_corrected, surface_cure};
+      result.default_forms = {
+        consistent_form().name, moment_corrected.name, moment_corrected.name, moment_corrected.name};
       result.takes_any_symmetry = true;
       result.has_bond_tensors   = true;
       result.critical_stretch   = &tensor_critical_stretch;

@@ -17,7 +17,7 @@ namespace perideal
   {
     const bool consistent = parameters.model.is_consistent();
     if (n_thin > 0)
-      return (parameters.model.has_forms() ? parameters.model.model->default_forms.failure : "energy") +
+      return (parameters.model.has_forms() ? parameters.model.model->default_forms.otherwise : "energy") +
              " form: " + grouped(n_thin) +
              " cells lie in parts one cell thick, across which the consistent form has no gradient" +
              (consistent ? "; three cells would do" : "");
@@ -101,7 +101,7 @@ namespace perideal
       if (problem.parameters.quadrature.counts_parts() || model.form_traits().is_made_for_each_family)
         return;
       const std::string advice = "take Quadrature/Scheme = partial volume | exact, or Material/Form = " +
-                                 (model.has_forms() ? model.model->default_forms.failure : "energy") +
+                                 (model.has_forms() ? model.model->default_forms.otherwise : "energy") +
                                  " | consistent";
       const double jump = largest_jump(*problem.body.mesh);
       if (jump > 1.5)

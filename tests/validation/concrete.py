@@ -9,6 +9,7 @@ from scenes import Failed, at, peak
 
 # Bonds of the zone in the consistent form, which a stress starts.
 BY_STRESS = ["Material/Model=correspondence", "Material/Form=automatic", "Material/Compressive strength=30e6"]
+CONSISTENT = "consistent form, the default"
 CRITERIA = ("maximum tensile stress", "Mohr-Coulomb", "Drucker-Prager")
 
 
@@ -17,8 +18,11 @@ def bar(runner, _):
     rows = []
     collars = ["Boundary conditions/Layers=4",
                "Boundary conditions/left/u_x=3e-4*t*x", "Boundary conditions/right/u_x=3e-4*t*x"]
-    for model, settings in MODELS.items():
+    for model, settings in {**MODELS, CONSISTENT: ["Material/Form=automatic"]}.items():
         for grips, more in (("gripped at the ends", []), ("in collars of a horizon", collars)):
+            # The consistent form is held at faces, not in layers.
+            if model == CONSISTENT and more:
+                continue
             strengths = []
             for columns in (20, 40, 80):
                 run = runner.run("bar/bar.prm", f"bar/{model} {grips} {columns}",

@@ -62,7 +62,8 @@ SPECIMENS = {
     "bar": (concrete.bar,
             "at gripped ends families lack bonds: the strain is larger there, and without a correction of surfaces (ordinary, "
             "springs) twice so; the bar gives way first at its grips. Collars that move with the strain of the bar show the strength "
-            "of its inside. Springs gain as cells become smaller: the mean over the directions of their bonds is met, not each."),
+            "of its inside. The consistent form, held at faces, bears it gripped, too. Springs gain as cells become smaller: the mean "
+            "over the directions of their bonds is met, not each."),
     "brazilian_disc": (concrete.brazilian_disc,
                        "bonds soften by stretch: pressed across with three times the pull, as in the middle of the disc, they are "
                        "1 + 3 nu times longer than in a bar, and give way earlier; against that the disc, less than half as large "

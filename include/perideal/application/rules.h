@@ -90,6 +90,9 @@ namespace perideal
   /// All rules.
   const std::vector<Rule> &rules();
 
+  /// What rules refuse in a scene of resolved parameters: paths of what breaks them, and what is wrong.
+  std::vector<std::string> refusals(const SceneParameters &scene);
+
   /// Applies all rules.
   /// @param changed paths of the parameters that have another value than their default
   /// @param not_read paths of those whose values could not be read, and "Section/" of such sections: what

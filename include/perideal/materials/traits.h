@@ -109,7 +109,11 @@ namespace perideal
     /// bonds break.
     struct DefaultForms
     {
+      /// In linear statics, where nothing breaks, and along load steps where something can.
       std::string statics, motion, failure;
+      /// In motions where something can break, and where a scene asks for what the form for failure does not
+      /// have.
+      std::string otherwise;
       /// The form of the bonds that the consistent form turns into where cracks may grow; empty: it has none.
       /// The model whose form that is; empty: this one.
       std::string in_zone = {}, in_zone_of = {};
