@@ -238,8 +238,8 @@ namespace perideal
     choose(asked);
     if (refusals(asked).size() >= refused.size())
       return;
-    asked.model.why_this_form = "Material/Form = automatic is " + asked.model.form +
-                                " here, for consistent is not possible: " + refused.front();
+    asked.warnings.push_back("Material/Form = automatic is " + asked.model.form +
+                             " here, for consistent is not possible: " + refused.front());
     scene = asked;
   }
 
@@ -256,9 +256,8 @@ namespace perideal
           return !error.parameter().empty();
         }))
       ask_for_constants(file, scene, mistakes);
-    scene.warnings = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
-    if (!scene.model.why_this_form.empty())
-      scene.warnings.push_back(scene.model.why_this_form);
+    const auto warned = apply_rules(scene, changed_parameters(prm), not_read, mistakes);
+    scene.warnings.insert(scene.warnings.end(), warned.begin(), warned.end());
     for (const InputError &mistake : mistakes.list())
       if (!follows_from(mistake.parameter(), not_read) && !is_inherited(mistake.parameter(), file, mistakes))
         errors.add(file.locate(mistake));

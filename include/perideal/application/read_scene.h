@@ -12,8 +12,9 @@ namespace perideal
   /// @throws InputError or InputErrors on all mistakes that were found, with file, line and parameter.
   void read_scene(const ParameterFile &file, dealii::ParameterHandler &prm, SceneParameters &scene);
 
-  /// Puts what they mean for the scene in the place of "automatic" choices. Says nothing about choices that
-  /// do not go together.
+  /// Puts what they mean for the scene in the place of "automatic" choices; a warning of the scene says where
+  /// the form is not the usual one, because of what the scene asks for besides. Says nothing else about
+  /// choices that do not go together.
   void resolve(SceneParameters &scene);
 } // namespace perideal
 

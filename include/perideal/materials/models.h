@@ -107,9 +107,6 @@ namespace perideal
     /// @param moves whether the scene is one of dynamics
     void resolve(const int dimension, const Use use = Use::statics, const bool moves = false);
 
-    /// Why the form is not the one that automatic mostly means, in words; else empty.
-    std::string why_this_form;
-
     /// What the chosen form says of itself; as long as it is "automatic", or none of the model, what forms
     /// are unless they say otherwise.
     const FormTraits &form_traits() const;

@@ -142,7 +142,7 @@ namespace perideal
     GaugeParameters      gauges;
     PictureParameters    pictures;
     ProbeParameters      probes;
-    /// What the table of rules warns of, one line each.
+    /// What the choice of automatic and the table of rules warn of, one line each.
     std::vector<std::string> warnings;
 
     void declare(dealii::ParameterHandler &prm, const ParameterFile &file);

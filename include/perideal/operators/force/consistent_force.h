@@ -78,7 +78,7 @@ namespace perideal
     }
 
     /// Scales the energy of cells and of the bonds that stabilise them from now on, here and in operators
-    /// that share these. Collective.
+    /// that share these.
     /// @param of_nodes by local node
     void set_shares(const std::vector<double> &of_nodes) { bonds->set_shares(of_nodes); }
     /// The same, and adds to the force of the last compute() [N] what that changes of it. Collective.
