@@ -21,8 +21,9 @@ namespace perideal
     const Mesh<dim> &mesh   = *problem.body.mesh;
     SolverParameters solves = problem.parameters.solver;
     solves.load_steps       = n_solves;
-    // Parents cannot follow a deformation.
-    if (!problem.parameters.model.law->is_linear && solves.auxiliary_mesh == AuxiliaryMesh::automatic)
+    // Parents cannot follow a deformation, nor do they open along cracks.
+    const bool keeps_shape = problem.parameters.model.law->is_linear && problem.failure.precracks.empty();
+    if (!keeps_shape && solves.auxiliary_mesh == AuxiliaryMesh::automatic)
       solves.auxiliary_mesh = AuxiliaryMesh::same;
     choice = choose_preconditioner(solves,
                                    measure_solve(mesh,
@@ -36,10 +37,19 @@ namespace perideal
           fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads, create_parent_mesh(mesh));
         else
           fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads);
-        fem->assemble(problem.body.solids, 0.);
+        fem->assemble(problem.body.solids, 0., nullptr, precracks());
       }
     report["preconditioner"] = name_of(choice.preconditioner);
     report["auxiliary_mesh"] = choice.auxiliary_mesh ? name_of(*choice.auxiliary_mesh) : std::string();
+  }
+
+  template <int dim>
+  typename SplitVertices<dim>::AreApart Preconditioning<dim>::precracks() const
+  {
+    const BondPredicate<dim> is_cut = problem.failure.precrack_test();
+    if (!is_cut || !fem->is_on_mesh_itself())
+      return {};
+    return [is_cut](const auto &a, const auto &b) { return is_cut(a->center(), b->center()); };
   }
 
   template <int dim>
@@ -68,9 +78,12 @@ namespace perideal
     {
       const auto  gradients = by_law.gradients();
       const auto *now       = force.positions();
-      NodalVector n_cells(fem.solution().get_partitioner()), moved(n_cells);
-      bool        is_oriented = true;
-      for (const auto &cell : fem.dof_handler().active_cell_iterators())
+      const auto &unknowns  = fem.elements().unknowns;
+      NodalVector n_cells, moved;
+      n_cells.reinit(unknowns.locally_owned_dofs(), fem.elements().relevant, unknowns.get_communicator());
+      moved.reinit(n_cells);
+      bool is_oriented = true;
+      for (const auto &cell : unknowns.active_cell_iterators())
         if (cell->is_locally_owned())
           {
             const LocalIndex i = nodes.node_of_cell[cell->active_cell_index()];
@@ -98,7 +111,7 @@ namespace perideal
       // deal.II takes linear cells of one shape at rest for alike wherever they have moved; not quadratic
       // ones.
       auto result = std::make_shared<dealii::MappingQCache<dim>>(2);
-      result->initialize(fem.mapping(), fem.dof_handler(), moved, true);
+      result->initialize(fem.elements().geometry, unknowns, moved, true);
       return result;
     }
   } // namespace
@@ -115,7 +128,7 @@ namespace perideal
     if (!mapping)
       return;
     fem = std::make_shared<ElasticFem<dim>>(*problem.body.mesh, problem.loading.loads);
-    fem->assemble(solids, 0., mapping);
+    fem->assemble(solids, 0., mapping, precracks());
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Preconditioning)

@@ -32,22 +32,29 @@ namespace perideal
     /// Translations alone (as deal.II's constant_modes) let the iterations grow
     /// with the mesh.
     template <int dim>
-    void fill_rigid_body_modes(const dealii::Mapping<dim>              &mapping,
-                               const dealii::DoFHandler<dim>           &unknowns,
-                               const dealii::AffineConstraints<double> &constraints,
-                               Epetra_MultiVector                      &modes)
+    void fill_rigid_body_modes(const std::vector<dealii::Point<dim>> &points,
+                               const std::vector<bool>               &held,
+                               MPI_Comm                               communicator,
+                               Epetra_MultiVector                    &modes)
     {
-      const auto  points  = owned_support_points(mapping, unknowns);
-      const auto &owned   = unknowns.locally_owned_dofs();
-      const auto  motions = motions_about_middle(points, unknowns.get_communicator());
+      const auto motions = motions_about_middle(points, communicator);
       for (unsigned int mode = 0; mode < RigidBodyMotions<dim>::n_motions; ++mode)
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             const dealii::Tensor<1, dim> value = motions.basic_motion(mode, points[i]);
             for (unsigned int d = 0; d < dim; ++d)
-              modes[mode][dim * i + d] =
-                constraints.is_constrained(owned.nth_index_in_set(dim * i + d)) ? 0. : value[d];
+              modes[mode][dim * i + d] = held[dim * i + d] ? 0. : value[d];
           }
+    }
+
+    std::vector<bool> are_constrained(const dealii::IndexSet                  &owned,
+                                      const dealii::AffineConstraints<double> &constraints)
+    {
+      std::vector<bool> result;
+      result.reserve(owned.n_elements());
+      for (const auto index : owned)
+        result.push_back(constraints.is_constrained(index));
+      return result;
     }
 
     /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
@@ -82,8 +89,10 @@ namespace perideal
 
   template <int dim>
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(const ElasticFem<dim> &fem, const unsigned int finest_sweeps)
-    : AlgebraicMultigrid(
-        fem.matrix_mapping(), fem.dof_handler(), fem.constraints(), fem.matrix(), finest_sweeps)
+    : AlgebraicMultigrid(fem.elements().support_points(fem.matrix_mapping()),
+                         are_constrained(fem.matrix().locally_owned_range_indices(), fem.constraints()),
+                         fem.matrix(),
+                         finest_sweeps)
   {
   }
 
@@ -93,10 +102,22 @@ namespace perideal
                                               const dealii::AffineConstraints<double>      &constraints,
                                               const dealii::TrilinosWrappers::SparseMatrix &matrix,
                                               const unsigned int                            finest_sweeps)
+    : AlgebraicMultigrid(owned_support_points(mapping, unknowns),
+                         are_constrained(unknowns.locally_owned_dofs(), constraints),
+                         matrix,
+                         finest_sweeps)
+  {
+  }
+
+  template <int dim>
+  AlgebraicMultigrid<dim>::AlgebraicMultigrid(const std::vector<dealii::Point<dim>>        &points,
+                                              const std::vector<bool>                      &held,
+                                              const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                              const unsigned int                            finest_sweeps)
     : implementation(std::make_unique<Implementation>(matrix))
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
-    fill_rigid_body_modes(mapping, unknowns, constraints, modes);
+    fill_rigid_body_modes(points, held, matrix.get_mpi_communicator(), modes);
     // ML estimates eigenvalues from random vectors. Once it has chosen a seed (0: not yet), that is put back,
     // so that set-ups do not depend on how many there were: a run that goes on from a checkpoint has fewer.
     const int seed = ML_get_random_seed();

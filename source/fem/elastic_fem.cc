@@ -93,7 +93,8 @@ namespace perideal
   template <int dim>
   void ElasticFem<dim>::assemble(const SolidsByMaterial<dim>                       &solids,
                                  const double                                       time,
-                                 const std::shared_ptr<const dealii::Mapping<dim>> &deformed)
+                                 const std::shared_ptr<const dealii::Mapping<dim>> &deformed,
+                                 const typename SplitVertices<dim>::AreApart       &are_apart)
   {
     assembled.solids   = solids;
     assembled.time     = time;
@@ -105,6 +106,8 @@ namespace perideal
     add_prescribed_displacements(space.geometry, space.unknowns, body, loads, time, held);
     assembled.pins = pin_free_motions(space.geometry, space.unknowns, body, loads, held);
     held.close();
+    if (are_apart)
+      space.open_cracks(are_apart, held);
     space.reinit(stiffness, held);
     space.reinit(right_hand_side);
     displacement.reinit(right_hand_side);
@@ -119,11 +122,12 @@ namespace perideal
       if (cell->is_locally_owned())
         {
           cell_system(cell, integrals, matrix, forces);
-          cell->get_dof_indices(indices);
+          space.cell_unknowns(cell, indices);
           held.distribute_local_to_global(matrix, forces, indices, stiffness, right_hand_side);
         }
     stiffness.compress(dealii::VectorOperation::add);
     right_hand_side.compress(dealii::VectorOperation::add);
+    space.add_ties(stiffness, held);
   }
 
   template <int dim>

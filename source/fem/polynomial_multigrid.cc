@@ -39,8 +39,10 @@ namespace perideal
     : implementation(std::make_unique<Implementation>(quadratic, std::move(linear)))
   {
     Implementation &all = *implementation;
-    all.transfer.reinit_polynomial_transfer(
-      quadratic.dof_handler(), all.linear->dof_handler(), quadratic.constraints(), all.linear->constraints());
+    all.transfer.reinit_polynomial_transfer(quadratic.elements().unknowns,
+                                            all.linear->elements().unknowns,
+                                            quadratic.constraints(),
+                                            all.linear->constraints());
 
     // Two steps over a wide range of eigenvalues: the best of 1 to 5 steps and
     // ranges 4 to 60, in 2-D and 3-D; point smoothers suffer from flat cells.

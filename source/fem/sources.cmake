@@ -6,6 +6,7 @@ perideal_room(fem
     cell_integrals.cc
     displacement_constraints.cc
     displacement_space.cc
+    split_vertices.cc
     elastic_fem.cc
     elastic_fem_results.cc
     external_forces.cc

@@ -28,6 +28,9 @@ namespace perideal
     void follow_deformation();
 
   private:
+    /// Along which faces the finite elements are to open; empty: none, or they are on parents.
+    typename SplitVertices<dim>::AreApart precracks() const;
+
     const Problem<dim>              &problem;
     PreconditionerChoice             choice;
     std::shared_ptr<ElasticFem<dim>> fem;

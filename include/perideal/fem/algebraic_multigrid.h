@@ -26,12 +26,19 @@ namespace perideal
     /// @param finest_sweeps degree of the Chebyshev smoother on the finest level, 1 or 2
     AlgebraicMultigrid(const ElasticFem<dim> &fem, const unsigned int finest_sweeps = 2);
 
-    /// The same for the matrix of any such elements, which must outlive this object.
+    /// The same for the matrix of any linear or quadratic elements, which must outlive this object.
     AlgebraicMultigrid(const dealii::Mapping<dim>                   &mapping,
                        const dealii::DoFHandler<dim>                &unknowns,
                        const dealii::AffineConstraints<double>      &constraints,
                        const dealii::TrilinosWrappers::SparseMatrix &matrix,
                        const unsigned int                            finest_sweeps = 2);
+
+    /// The same for a matrix with dim consecutive unknowns at each of this rank's points [m].
+    /// @param held by owned unknown
+    AlgebraicMultigrid(const std::vector<dealii::Point<dim>>        &points,
+                       const std::vector<bool>                      &held,
+                       const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                       const unsigned int                            finest_sweeps);
     ~AlgebraicMultigrid();
 
     /// Approximates the inverse of the matrix applied to @p source. The vectors

@@ -34,6 +34,8 @@ namespace perideal
   class ElasticFem
   {
   public:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
     /// Degree-one elements on the mesh itself, or elements of degree 1 or 2
     /// (with a mapping of that degree, so that curved boundaries count) on a
     /// copy of the mesh refined globally @p refinements times (-1: coarsened once,
@@ -56,9 +58,12 @@ namespace perideal
     /// rigid-body motion free, as many vertex components are pinned to zero;
     /// removing the motion from the result is the caller's business. Collective.
     /// @param deformed the mapping of a deformed body whose stiffness is wanted; null: the body at rest
+    /// @param are_apart cracks, along which linear elements on the mesh itself open; empty: none. Pieces that
+    ///   they part stay tied by weak springs.
     void assemble(const SolidsByMaterial<dim>                       &solids,
                   const double                                       time,
-                  const std::shared_ptr<const dealii::Mapping<dim>> &deformed = nullptr);
+                  const std::shared_ptr<const dealii::Mapping<dim>> &deformed  = nullptr,
+                  const typename SplitVertices<dim>::AreApart       &are_apart = {});
 
     /// Sets up the multigrid preconditioner of solve(), which does so itself
     /// when it was not done. Collective.
@@ -102,21 +107,20 @@ namespace perideal
     const Mesh<dim> &mesh() const { return body; }
     bool             is_on_mesh_itself() const { return own_cells == nullptr; }
 
-    const dealii::MappingQ<dim> &mapping() const { return space.geometry; }
+    /// The elements. Cracks that are open have unknowns of their own, of which solutions and results know
+    /// nothing.
+    const DisplacementSpace<dim> &elements() const { return space; }
     /// The mapping of the body whose stiffness the matrix is.
     const dealii::Mapping<dim> &matrix_mapping() const
     {
       return assembled.deformed ? *assembled.deformed : space.geometry;
     }
-    const dealii::DoFHandler<dim>                &dof_handler() const { return space.unknowns; }
     const dealii::AffineConstraints<double>      &constraints() const { return held; }
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return stiffness; }
     /// Displacement, constraints distributed, ghosts up to date.
     const NodalVector &solution() const { return displacement; }
 
   private:
-    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
-
     /// @param cells null: those of the mesh itself
     ElasticFem(const Mesh<dim>                                  &mesh,
                const Loads<dim>                                 &loads,

@@ -120,25 +120,20 @@ namespace perideal
   template <int dim>
   void AuxiliarySpace<dim>::find_places(const Nodes<dim> &nodes, const ElasticFem<dim> &fem)
   {
-    const dealii::DoFHandler<dim> &unknowns    = fem.dof_handler();
+    const dealii::DoFHandler<dim> &unknowns    = fem.elements().unknowns;
     const auto                    &elements    = unknowns.get_triangulation();
     const auto                    &partitioner = *coarse_source.get_partitioner();
     places.resize(nodes.size());
     for (const auto &cell : fem.mesh().triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const Element<dim>                                    element = find_element<dim>(cell, elements);
-          const typename dealii::DoFHandler<dim>::cell_iterator with_unknowns(
+          const Element<dim>                   element = find_element<dim>(cell, elements);
+          const typename ElasticFem<dim>::Cell with_unknowns(
             &elements, element.cell->level(), element.cell->index(), &unknowns);
           Place &place = places[nodes.node_of_cell[cell->active_cell_index()]];
           place.part   = element.part * n_middles;
           for (const unsigned int v : with_unknowns->vertex_indices())
-            {
-              const auto first = with_unknowns->vertex_dof_index(v, 0);
-              Assert(with_unknowns->vertex_dof_index(v, dim - 1) == first + dim - 1,
-                     dealii::ExcInternalError());
-              place.unknowns[v] = partitioner.global_to_local(first);
-            }
+            place.unknowns[v] = partitioner.global_to_local(fem.elements().first_unknown(with_unknowns, v));
         }
   }
 

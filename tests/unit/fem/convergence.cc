@@ -73,10 +73,10 @@ namespace perideal::test
       fem.assemble({{0, problem.solid}}, 0.);
       fem.solve(1e-11);
 
-      const auto            &triangulation = fem.dof_handler().get_triangulation();
+      const auto            &triangulation = fem.elements().unknowns.get_triangulation();
       dealii::Vector<double> of_cells(triangulation.n_active_cells());
-      dealii::VectorTools::integrate_difference(fem.mapping(),
-                                                fem.dof_handler(),
+      dealii::VectorTools::integrate_difference(fem.elements().geometry,
+                                                fem.elements().unknowns,
                                                 fem.solution(),
                                                 Exact(problem.amplitude),
                                                 of_cells,

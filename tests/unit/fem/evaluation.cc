@@ -37,7 +37,7 @@ namespace perideal::test
     {
       std::vector<dealii::Point<2>>     points;
       std::vector<dealii::Tensor<1, 2>> expected;
-      for (const auto &cell : fem->dof_handler().active_cell_iterators())
+      for (const auto &cell : fem->elements().unknowns.active_cell_iterators())
         if (cell->is_locally_owned())
           for (const unsigned int vertex : cell->vertex_indices())
             {
