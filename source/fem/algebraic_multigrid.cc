@@ -60,7 +60,8 @@ namespace perideal
     /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
     template <int dim>
     Teuchos::ParameterList multigrid_options(Epetra_MultiVector &near_null_space,
-                                             const unsigned int  finest_sweeps)
+                                             const unsigned int  finest_sweeps,
+                                             const double        weakest_coupling)
     {
       Teuchos::ParameterList options;
       ML_Epetra::SetDefaults("SA", options);
@@ -70,8 +71,8 @@ namespace perideal
       options.set("prec type", "MGW");
       options.set("cycle applications", 1);
       options.set("aggregation: type", "Uncoupled");
-      // Elasticity has no strength of connection to go by: keep all couplings.
-      options.set("aggregation: threshold", 0.);
+      // Elasticity has no strength of connection to go by: keep all couplings of elements.
+      options.set("aggregation: threshold", weakest_coupling);
       options.set("smoother: type", "Chebyshev");
       options.set("smoother: sweeps", 2);
       options.set("smoother: pre or post", "both");
@@ -92,7 +93,8 @@ namespace perideal
     : AlgebraicMultigrid(fem.elements().support_points(fem.matrix_mapping()),
                          are_constrained(fem.matrix().locally_owned_range_indices(), fem.constraints()),
                          fem.matrix(),
-                         finest_sweeps)
+                         finest_sweeps,
+                         fem.elements().weakest_coupling())
   {
   }
 
@@ -113,7 +115,8 @@ namespace perideal
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(const std::vector<dealii::Point<dim>>        &points,
                                               const std::vector<bool>                      &held,
                                               const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                                              const unsigned int                            finest_sweeps)
+                                              const unsigned int                            finest_sweeps,
+                                              const double                                  weakest_coupling)
     : implementation(std::make_unique<Implementation>(matrix))
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
@@ -121,7 +124,8 @@ namespace perideal
     // ML estimates eigenvalues from random vectors. Once it has chosen a seed (0: not yet), that is put back,
     // so that set-ups do not depend on how many there were: a run that goes on from a checkpoint has fewer.
     const int seed = ML_get_random_seed();
-    implementation->multigrid.initialize(matrix, multigrid_options<dim>(modes, finest_sweeps));
+    implementation->multigrid.initialize(matrix,
+                                         multigrid_options<dim>(modes, finest_sweeps, weakest_coupling));
     if (seed != 0)
       ML_set_random_seed(seed);
   }

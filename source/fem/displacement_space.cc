@@ -12,7 +12,7 @@ namespace perideal
   namespace
   {
     /// Stiffness of the springs between what a crack parts over that of the elements there [-].
-    constexpr double share_of_ties = 1e-4;
+    constexpr double share_of_ties = 1e-5;
   } // namespace
 
   template <int dim>
@@ -112,6 +112,12 @@ namespace perideal
         for (const auto j : spring.ends)
           matrix.add(i, j, i == j ? spring.stiffness : -spring.stiffness);
     matrix.compress(dealii::VectorOperation::add);
+  }
+
+  template <int dim>
+  double DisplacementSpace<dim>::weakest_coupling() const
+  {
+    return split ? 10. * share_of_ties : 0.;
   }
 
   template <int dim>

@@ -60,8 +60,9 @@ namespace perideal
       "Auxiliary mesh",
       auxiliary_mesh,
       "Where the finite elements of the auxiliary preconditioner live. same: on the cells of the "
-      "mesh; parent: on the cells before the last refinement, fewer by 4 (2-D) or 8 (3-D); "
-      "automatic: parent where the mesh was refined");
+      "mesh, where they open along precracks; parent: on the cells before the last refinement, fewer by "
+      "4 (2-D) or 8 (3-D), where they do not; automatic: parent where the mesh was refined and nothing "
+      "is precracked");
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",

@@ -35,10 +35,12 @@ namespace perideal
 
     /// The same for a matrix with dim consecutive unknowns at each of this rank's points [m].
     /// @param held by owned unknown
+    /// @param weakest_coupling over the diagonal [-]: aggregates do not join unknowns of weaker ones
     AlgebraicMultigrid(const std::vector<dealii::Point<dim>>        &points,
                        const std::vector<bool>                      &held,
                        const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                       const unsigned int                            finest_sweeps);
+                       const unsigned int                            finest_sweeps,
+                       const double                                  weakest_coupling = 0.);
     ~AlgebraicMultigrid();
 
     /// Approximates the inverse of the matrix applied to @p source. The vectors

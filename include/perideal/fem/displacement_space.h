@@ -45,6 +45,10 @@ namespace perideal
     void add_ties(dealii::TrilinosWrappers::SparseMatrix  &matrix,
                   const dealii::AffineConstraints<double> &held) const;
 
+    /// What is weaker in the matrix, over its diagonal, comes of ties and not of elements [-]; 0: it has no
+    /// ties.
+    double weakest_coupling() const;
+
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
     /// The unknowns of an owned cell, by shape.
     void cell_unknowns(const Cell &cell, std::vector<dealii::types::global_dof_index> &numbers) const;
