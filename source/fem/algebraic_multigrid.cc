@@ -3,12 +3,15 @@
 #include <perideal/fem/algebraic_multigrid.h>
 #include <perideal/fem/support_points.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <ml_utils.h>
+
+#include <limits>
 
 namespace perideal
 {
@@ -55,6 +58,15 @@ namespace perideal
       for (const auto index : owned)
         result.push_back(constraints.is_constrained(index));
       return result;
+    }
+
+    /// Where ML's random numbers begin on this rank: evenly over the range of its seeds, as it does itself at
+    /// first.
+    int seed_of_rank(MPI_Comm communicator)
+    {
+      const double rank = dealii::Utilities::MPI::this_mpi_process(communicator),
+                   n    = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      return static_cast<int>((std::numeric_limits<int>::max() - 1) * (1. - (rank + 1.) / (n + 1.)));
     }
 
     /// Options of ML (its user's guide, SAND2006-2649, section 6.4).
@@ -121,13 +133,12 @@ namespace perideal
   {
     Epetra_MultiVector &modes = implementation->near_null_space;
     fill_rigid_body_modes(points, held, matrix.get_mpi_communicator(), modes);
-    // ML estimates eigenvalues from random vectors. Once it has chosen a seed (0: not yet), that is put back,
-    // so that set-ups do not depend on how many there were: a run that goes on from a checkpoint has fewer.
-    const int seed = ML_get_random_seed();
+    // ML estimates eigenvalues from random vectors. Each set-up begins with the same seed, so that it does
+    // not depend on those before it: a run that goes on from a checkpoint had fewer, and none on earlier
+    // meshes.
+    ML_set_random_seed(seed_of_rank(matrix.get_mpi_communicator()));
     implementation->multigrid.initialize(matrix,
                                          multigrid_options<dim>(modes, finest_sweeps, weakest_coupling));
-    if (seed != 0)
-      ML_set_random_seed(seed);
   }
 
   template <int dim>
