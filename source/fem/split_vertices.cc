@@ -131,6 +131,27 @@ namespace perideal
   }
 
   template <int dim>
+  void SplitVertices<dim>::add_unknowns(const Vertex &vertex, const global_dof_index first)
+  {
+    for (std::size_t part = 1; part < vertex.parts.size(); ++part)
+      {
+        const Tie tie = {renumbered(vertex.old), first + static_cast<global_dof_index>(dim * (part - 1))};
+        known_ties.push_back(tie);
+        if (unknowns.locally_owned_dofs().is_element(vertex.old))
+          own_ties.push_back(tie);
+        for (const Corner &corner : vertex.parts[part])
+          if (corner.cell->is_locally_owned())
+            {
+              std::array<global_dof_index, n_vertices> whole;
+              for (const unsigned int v : corner.cell->vertex_indices())
+                whole[v] = renumbered(corner.cell->vertex_dof_index(v, 0));
+              of_cell.insert({corner.cell->active_cell_index(), whole}).first->second[corner.vertex] =
+                tie.added;
+            }
+      }
+  }
+
+  template <int dim>
   void SplitVertices<dim>::number(const std::vector<Vertex> &vertices)
   {
     const dealii::IndexSet &old          = unknowns.locally_owned_dofs();
@@ -170,23 +191,8 @@ namespace perideal
       first_added.insert(of_rank.begin(), of_rank.end());
 
     for (const Vertex &vertex : vertices)
-      for (std::size_t part = 1; part < vertex.parts.size(); ++part)
-        {
-          const auto before = static_cast<global_dof_index>(dim * (part - 1));
-          const Tie  tie    = {renumbered(vertex.old), first_added.at(vertex.old) + before};
-          known_ties.push_back(tie);
-          if (old.is_element(vertex.old))
-            own_ties.push_back(tie);
-          for (const Corner &corner : vertex.parts[part])
-            if (corner.cell->is_locally_owned())
-              {
-                std::array<global_dof_index, n_vertices> whole;
-                for (const unsigned int v : corner.cell->vertex_indices())
-                  whole[v] = renumbered(corner.cell->vertex_dof_index(v, 0));
-                of_cell.insert({corner.cell->active_cell_index(), whole}).first->second[corner.vertex] =
-                  tie.added;
-              }
-        }
+      if (const auto first = first_added.find(vertex.old); first != first_added.end())
+        add_unknowns(vertex, first->second);
 
     const global_dof_index n = unknowns.n_dofs() + n_added_globally;
     owned_unknowns.set_size(n);

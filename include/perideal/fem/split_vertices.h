@@ -39,6 +39,7 @@ namespace perideal
     /// Unknowns of all ranks that were added.
     dealii::types::global_dof_index n_added() const { return n_added_globally; }
 
+    /// Unknowns of this rank, and those that it needs to know.
     const dealii::IndexSet &owned() const { return owned_unknowns; }
     const dealii::IndexSet &relevant() const { return relevant_unknowns; }
 
@@ -81,7 +82,9 @@ namespace perideal
     std::vector<Vertex>              vertices_of_cracks(const AreApart &are_apart) const;
     std::vector<std::vector<Corner>> parts_of(std::vector<Corner> corners, const AreApart &are_apart) const;
     void                             number(const std::vector<Vertex> &vertices);
-    dealii::types::global_dof_index  renumbered(const dealii::types::global_dof_index old) const;
+    /// Those of the parts of a vertex but the first, which begin with @p first.
+    void add_unknowns(const Vertex &vertex, const dealii::types::global_dof_index first);
+    dealii::types::global_dof_index renumbered(const dealii::types::global_dof_index old) const;
 
     const dealii::DoFHandler<dim> &unknowns;
     /// Of this rank's vertices, and of all that its cells touch.
