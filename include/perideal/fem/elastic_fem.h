@@ -107,8 +107,8 @@ namespace perideal
     const Mesh<dim> &mesh() const { return body; }
     bool             is_on_mesh_itself() const { return own_cells == nullptr; }
 
-    /// The elements. Cracks that are open have unknowns of their own, of which solutions and results know
-    /// nothing.
+    /// The elements. Where cracks are open, matrix and solution have their unknowns; evaluate(),
+    /// evaluate_in_cells(), gradients_in_cells() and reaction() are for elements without cracks.
     const DisplacementSpace<dim> &elements() const { return space; }
     /// The mapping of the body whose stiffness the matrix is.
     const dealii::Mapping<dim> &matrix_mapping() const
