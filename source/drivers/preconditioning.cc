@@ -21,9 +21,8 @@ namespace perideal
     const Mesh<dim> &mesh   = *problem.body.mesh;
     SolverParameters solves = problem.parameters.solver;
     solves.load_steps       = n_solves;
-    // Parents cannot follow a deformation, nor do they open along cracks.
-    const bool keeps_shape = problem.parameters.model.law->is_linear && problem.failure.precracks.empty();
-    if (!keeps_shape && solves.auxiliary_mesh == AuxiliaryMesh::automatic)
+    // Parents cannot follow a deformation.
+    if (!problem.parameters.model.law->is_linear && solves.auxiliary_mesh == AuxiliaryMesh::automatic)
       solves.auxiliary_mesh = AuxiliaryMesh::same;
     choice = choose_preconditioner(solves,
                                    measure_solve(mesh,
@@ -34,7 +33,8 @@ namespace perideal
     if (choice.preconditioner == PreconditionerName::auxiliary)
       {
         if (choice.auxiliary_mesh == AuxiliaryMesh::parent)
-          fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads, create_parent_mesh(mesh));
+          fem = std::make_shared<ElasticFem<dim>>(
+            mesh, problem.loading.loads, create_parent_mesh(mesh, problem.failure.precrack_test()));
         else
           fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads);
         fem->assemble(problem.body.solids, 0., nullptr, precracks());
@@ -47,7 +47,7 @@ namespace perideal
   typename SplitVertices<dim>::AreApart Preconditioning<dim>::precracks() const
   {
     const BondPredicate<dim> is_cut = problem.failure.precrack_test();
-    if (!is_cut || !fem->is_on_mesh_itself())
+    if (!is_cut)
       return {};
     return [is_cut](const auto &a, const auto &b) { return is_cut(a->center(), b->center()); };
   }

@@ -3,13 +3,16 @@
 #include <perideal/mesh/create_mesh.h>
 #include <perideal/mesh/parent_mesh.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria_description.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace perideal
@@ -79,6 +82,93 @@ namespace perideal
             owner[number[k]] = answer.first;
       return owner;
     }
+
+    /// Where the middles of a cell's children are, or would be if it were divided.
+    template <int dim>
+    std::vector<dealii::Point<dim>>
+    child_middles(const typename dealii::Triangulation<dim>::cell_iterator &cell)
+    {
+      using Geometry = dealii::GeometryInfo<dim>;
+      dealii::Point<dim> middle;
+      for (int d = 0; d < dim; ++d)
+        middle[d] = 0.5;
+      std::vector<dealii::Point<dim>> result(Geometry::max_children_per_cell);
+      for (unsigned int c = 0; c < result.size(); ++c)
+        for (const unsigned int v : cell->vertex_indices())
+          result[c] += Geometry::d_linear_shape_function(Geometry::child_to_cell_coordinates(middle, c), v) *
+                       cell->vertex(v);
+      return result;
+    }
+
+    /// Whether a crack parts some of the children of a cell.
+    template <int dim>
+    bool is_divided(const typename dealii::Triangulation<dim>::cell_iterator &cell,
+                    const BondPredicate<dim>                                 &is_cut)
+    {
+      const auto middles = child_middles<dim>(cell);
+      for (auto a = middles.begin(); a != middles.end(); ++a)
+        if (std::any_of(std::next(a), middles.end(), [&](const auto &b) { return is_cut(*a, b); }))
+          return true;
+      return false;
+    }
+
+    /**
+     * Calls visit(cell) for owned active cells at a crack: those that share a vertex with one that it
+     * divides, where parent_of(cell) is the cell of the coarser mesh, if there is one.
+     */
+    template <int dim, typename ParentOf, typename Visit>
+    void visit_cells_at_cracks(const dealii::Triangulation<dim> &triangulation,
+                               const BondPredicate<dim>         &is_cut,
+                               const ParentOf                   &parent_of,
+                               const Visit                      &visit)
+    {
+      std::vector<bool> at_crack(triangulation.n_vertices(), false);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (!cell->is_artificial())
+          if (const auto parent = parent_of(cell); parent && is_divided<dim>(*parent, is_cut))
+            for (const unsigned int v : cell->vertex_indices())
+              at_crack[cell->vertex_index(v)] = true;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const auto vertices = cell->vertex_indices();
+            if (std::any_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+                  return at_crack[cell->vertex_index(v)];
+                }))
+              visit(cell);
+          }
+    }
+
+    /// Coarsens a copy of the mesh once, but for cells at cracks. Collective.
+    template <int dim>
+    void
+    copy_coarsened(const Mesh<dim> &mesh, const BondPredicate<dim> &is_cut, dealii::Triangulation<dim> &copy)
+    {
+      // A mesh of one level: what lies at cracks is divided again, and no second mesh of its size is made.
+      const bool has_one_level = mesh.local_refinement.times == 0 && mesh.adapted.empty();
+      copy_refined(mesh, is_cut && !has_one_level ? 0 : -1, copy);
+      if (!is_cut)
+        return;
+      using Parent = std::optional<typename dealii::Triangulation<dim>::cell_iterator>;
+      if (has_one_level)
+        visit_cells_at_cracks(
+          copy,
+          is_cut,
+          [](const auto &cell) { return Parent(cell); },
+          [](const auto &cell) { cell->set_refine_flag(); });
+      else
+        {
+          for (const auto &cell : copy.active_cell_iterators())
+            if (cell->is_locally_owned() && cell->level() > 0)
+              cell->set_coarsen_flag();
+          visit_cells_at_cracks(
+            copy,
+            is_cut,
+            [](const auto &cell) { return cell->level() > 0 ? Parent(cell->parent()) : Parent(); },
+            [](const auto &cell) { cell->clear_coarsen_flag(); });
+        }
+      copy.execute_coarsening_and_refinement();
+    }
   } // namespace
 
   template <int dim>
@@ -104,12 +194,13 @@ namespace perideal
   }
 
   template <int dim>
-  std::unique_ptr<dealii::Triangulation<dim>> create_parent_mesh(const Mesh<dim> &mesh)
+  std::unique_ptr<dealii::Triangulation<dim>> create_parent_mesh(const Mesh<dim>          &mesh,
+                                                                 const BondPredicate<dim> &is_cut)
   {
     Assert(has_parents(mesh), dealii::ExcMessage("no cell has a parent"));
     const MPI_Comm communicator = mesh.triangulation.get_communicator();
     auto parents = std::make_unique<dealii::parallel::distributed::Triangulation<dim>>(communicator);
-    copy_refined(mesh, -1, *parents);
+    copy_coarsened(mesh, is_cut, *parents);
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
       return parents;
 

@@ -48,6 +48,9 @@ namespace perideal
     result.jacobi_factor    = consistent ? 3.4 : 1.;
     result.auxiliary_factor = consistent ? 2. : 1.;
     result.bond_factor      = consistent ? 12. : 1.;
+    // 33 iterations against 20 on squares, 57 against 42 on cubes, notched or not; such that the times of
+    // both stand to each other as measured, 1.17 and 1.0.
+    result.parent_factor = !consistent ? 1. : dim == 2 ? 1.4 : 1.15;
     return result;
   }
 
@@ -103,7 +106,8 @@ namespace perideal
     const double   cells  = parent ? size.parents : size.cells;
     const CellWork work   = cell_work(size.dim, parent);
     SolveEstimate  result;
-    result.iterations = 25 * size.auxiliary_factor * share_of_eight_digits(tolerance);
+    result.iterations =
+      25 * size.auxiliary_factor * (parent ? size.parent_factor : 1.) * share_of_eight_digits(tolerance);
     // The largest eigenvalue takes a few iterations.
     result.set_up = work.set_up * cells + 5 * size.bond_factor * size.bonds;
     result.solve  = result.iterations * (size.bond_factor * size.bonds + work.cycle * cells);

@@ -59,10 +59,9 @@ namespace perideal
     prm.add_parameter(
       "Auxiliary mesh",
       auxiliary_mesh,
-      "Where the finite elements of the auxiliary preconditioner live. same: on the cells of the "
-      "mesh, where they open along precracks; parent: on the cells before the last refinement, fewer by "
-      "4 (2-D) or 8 (3-D), where they do not; automatic: parent where the mesh was refined and nothing "
-      "is precracked");
+      "Where the finite elements of the auxiliary preconditioner live; along precracks they open. same: "
+      "on the cells of the mesh; parent: on the cells before the last refinement, fewer by 4 (2-D) or 8 "
+      "(3-D) but for those that a precrack divides; automatic: whichever is estimated to take less work");
     prm.add_parameter("Load steps",
                       load_steps,
                       "Number of equilibria at t = 1/n, 2/n, ..., 1; formulas of t make the loads grow",

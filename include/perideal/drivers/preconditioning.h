@@ -28,7 +28,7 @@ namespace perideal
     void follow_deformation();
 
   private:
-    /// Along which faces the finite elements are to open; empty: none, or they are on parents.
+    /// Along which faces the finite elements are to open; empty: none.
     typename SplitVertices<dim>::AreApart precracks() const;
 
     const Problem<dim>              &problem;

@@ -58,7 +58,7 @@ namespace perideal
     /// rigid-body motion free, as many vertex components are pinned to zero;
     /// removing the motion from the result is the caller's business. Collective.
     /// @param deformed the mapping of a deformed body whose stiffness is wanted; null: the body at rest
-    /// @param are_apart cracks, along which linear elements on the mesh itself open; empty: none. Pieces that
+    /// @param are_apart cracks, along which linear elements open; empty: none. Pieces that
     ///   they part stay tied by weak springs.
     void assemble(const SolidsByMaterial<dim>                       &solids,
                   const double                                       time,

@@ -20,6 +20,8 @@ namespace perideal
     /// Iterations over those that the forms with forces along bonds take, with block Jacobi and with the
     /// auxiliary space.
     double jacobi_factor = 1, auxiliary_factor = 1;
+    /// Iterations on the parents over those on the cells themselves.
+    double parent_factor = 1;
     /// Time of a bond's share of an iteration over that of these forms.
     double bond_factor = 1;
   };

@@ -66,6 +66,52 @@ namespace
             ids.insert(face->boundary_id());
     EXPECT_EQ(dealii::Utilities::MPI::compute_set_union(ids, MPI_COMM_WORLD), mesh.boundary_ids);
   }
+
+  /// A unit box of eight cells a side, refined globally, and then where x < .6.
+  template <int dim>
+  std::unique_ptr<Mesh<dim>> refined_box(const unsigned int global, const unsigned int times)
+  {
+    MeshParameters parameters;
+    parameters.generator    = "box";
+    parameters.cells        = std::vector<unsigned int>(dim, 8);
+    parameters.size         = std::vector<double>(dim, 1.);
+    parameters.refinements  = global;
+    parameters.refine_where = times > 0 ? "x<0.6" : "";
+    parameters.refine_times = times;
+    return create_mesh<dim>(parameters, MPI_COMM_WORLD, "");
+  }
+
+  /// No parent has cells on both sides of an inclined crack, whose faces have no hanging vertices, while
+  /// others stay undivided.
+  template <int dim>
+  void expect_divided_along_crack(const Mesh<dim> &mesh)
+  {
+    const BondPredicate<dim> is_cut = [](const dealii::Point<dim> &a, const dealii::Point<dim> &b) {
+      const auto height = [](const dealii::Point<dim> &x) { return x[1] - 0.47 - 0.2 * x[0]; };
+      return a[0] < 0.4 && b[0] < 0.4 && (height(a) < 0) != (height(b) < 0);
+    };
+    expect_parents_of_all_cells(mesh, is_cut);
+    const auto parents = create_parent_mesh(mesh, is_cut);
+    EXPECT_GT(parents->n_global_active_cells(), create_parent_mesh(mesh)->n_global_active_cells());
+
+    unsigned int n_at_crack = 0;
+    for (const auto &cell : parents->active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto in_mesh = mesh.triangulation.create_cell_iterator(cell->id());
+          for (unsigned int a = 0; a < in_mesh->n_children(); ++a)
+            for (unsigned int b = 0; b < a; ++b)
+              EXPECT_FALSE(is_cut(in_mesh->child(a)->center(), in_mesh->child(b)->center()));
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+                is_cut(cell->center(), cell->neighbor(f)->center()))
+              {
+                ++n_at_crack;
+                EXPECT_EQ(cell->level(), cell->neighbor(f)->level());
+              }
+        }
+    EXPECT_GT(dealii::Utilities::MPI::sum(n_at_crack, MPI_COMM_WORLD), 0u);
+  }
 } // namespace
 
 TEST(LocalRefinement, ReachesEveryCellThatTouches)
@@ -193,6 +239,26 @@ TEST(ParentMesh, HasTheParentsOfAllCells)
   expect_parents(*refined_plate<3>(1, 0, 1));
   expect_parents(*refined_plate<3>(1, 1, 2));
   expect_parents(*refined_plate<3>(0, 2, 1));
+}
+
+TEST(ParentMesh, StaysDividedAlongCracks)
+{
+  expect_divided_along_crack(*refined_box<2>(1, 0));
+  expect_divided_along_crack(*refined_box<2>(2, 0));
+  expect_divided_along_crack(*refined_box<2>(1, 1));
+  expect_divided_along_crack(*refined_box<2>(0, 2));
+  expect_divided_along_crack(*refined_box<3>(1, 0));
+  expect_divided_along_crack(*refined_box<3>(1, 1));
+}
+
+// A crack along faces of the parents divides none of them.
+TEST(ParentMesh, IsWholeWhereCracksRunAlongItsFaces)
+{
+  const auto             mesh   = refined_box<2>(1, 0);
+  const BondPredicate<2> is_cut = [](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+    return (a[1] < 0.5) != (b[1] < 0.5);
+  };
+  EXPECT_EQ(create_parent_mesh(*mesh, is_cut)->n_global_active_cells(), n_parent_cells(*mesh));
 }
 
 TEST(ParentMesh, IsCountedWhereRefinementIsUniform)

@@ -104,10 +104,10 @@ namespace perideal::test
   /// Of every own cell, the parent or the cell itself is an own active cell of
   /// the parent mesh, and nothing else is in it.
   template <int dim>
-  void expect_parents_of_all_cells(const Mesh<dim> &mesh)
+  void expect_parents_of_all_cells(const Mesh<dim> &mesh, const BondPredicate<dim> &is_cut = {})
   {
     ASSERT_TRUE(has_parents(mesh));
-    const auto               parents = create_parent_mesh(mesh);
+    const auto               parents = create_parent_mesh(mesh, is_cut);
     std::set<dealii::CellId> found;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())

@@ -20,10 +20,10 @@ namespace perideal
    * of a finite-element field in the middle of each node's cell, or of its face.
    *
    * The elements live on the cells of the nodes or on their parents, which are
-   * fewer by 2^dim and nearly as good. Where the body is precracked, those on the cells of the nodes are
-   * open: continuous ones resist the opening of a crack of length a by a/h times what the bonds do. On its
-   * finest level V smooths once on the cells, which saves a third of the iterations, and twice on the
-   * parents.
+   * fewer by 2^dim and as good for forms with forces along bonds; the consistent form takes half as many
+   * iterations more. Where the body is precracked they are open: continuous ones resist the opening of a
+   * crack of length a by a/h times what the bonds do. On its finest level V smooths once on the cells, which
+   * saves a third of the iterations, and twice on the parents.
    */
   template <int dim>
   class AuxiliarySpace
