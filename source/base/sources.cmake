@@ -3,6 +3,7 @@
 perideal_room(base
   SOURCES
     child_process.cc
+    equal_records.cc
     exceptions.cc
     find_file.cc
     finite.cc

@@ -21,15 +21,21 @@ namespace perideal
         linear = std::make_shared<const FaceGradient<dim>>(*body.mesh, *body.nodes, stiffness);
         return;
       }
+    const bool share_equal = body.parameters.nodes.share_equal_families;
     // Polynomials are closed by the directions of the body at rest, which large rotations leave.
     const auto                               solid_of = solids_of_model(body);
     typename CellPolynomials<dim>::Stiffness of_closure;
     const bool                               moves = body.parameters.solver.is_dynamic();
     if (model.law->is_linear && !moves)
       of_closure = [&](const dealii::types::material_id id) { return solid_of(id).stiffness(); };
-    polynomials = std::make_shared<const CellPolynomials<dim>>(
-      *body.mesh, *body.nodes, of_closure, is_cut, moves ? CellUnknown::value : CellUnknown::mean);
-    faces = std::make_shared<const FaceMoments<dim>>(*body.mesh, polynomials->graph(), stiffness, is_cut);
+    polynomials = std::make_shared<const CellPolynomials<dim>>(*body.mesh,
+                                                               *body.nodes,
+                                                               of_closure,
+                                                               is_cut,
+                                                               moves ? CellUnknown::value : CellUnknown::mean,
+                                                               share_equal);
+    faces       = std::make_shared<const FaceMoments<dim>>(
+      *body.mesh, polynomials->graph(), stiffness, is_cut, share_equal);
   }
 
   template <int dim>

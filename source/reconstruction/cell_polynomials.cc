@@ -1,84 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/equal_records.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/base/work_progress.h>
+#include <perideal/reconstruction/cell_moments.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 #include <perideal/reconstruction/quadratic_fit.h>
 
 #include <deal.II/base/memory_consumption.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/fe/fe_q.h>
 
 #include <algorithm>
 #include <map>
 
 namespace perideal
 {
-  namespace
-  {
-    /// Measure, centroid and second moment of (bi-, tri-)linear cells: three points in each direction
-    /// integrate all of them exactly.
-    template <int dim>
-    class CellIntegrals
-    {
-    public:
-      CellIntegrals()
-        : quadrature(3)
-      {
-        const dealii::FE_Q<dim> shape(1);
-        for (const auto &point : quadrature.get_points())
-          {
-            std::array<double, n_vertices>                 value;
-            std::array<dealii::Tensor<1, dim>, n_vertices> gradient;
-            for (unsigned int v = 0; v < n_vertices; ++v)
-              {
-                value[v]    = shape.shape_value(v, point);
-                gradient[v] = shape.shape_grad(v, point);
-              }
-            values.push_back(value);
-            gradients.push_back(gradient);
-          }
-      }
-
-      template <typename Cell>
-      void integrate(const Cell                      &cell,
-                     dealii::Point<dim>              &centroid,
-                     dealii::SymmetricTensor<2, dim> &second_moment) const
-      {
-        std::array<dealii::Tensor<1, dim>, n_vertices> vertex;
-        for (unsigned int v = 0; v < n_vertices; ++v)
-          vertex[v] = cell->vertex(v) - cell->vertex(0);
-        double                          measure = 0;
-        dealii::Tensor<1, dim>          first;
-        dealii::SymmetricTensor<2, dim> second;
-        for (unsigned int q = 0; q < values.size(); ++q)
-          {
-            dealii::Tensor<1, dim> x;
-            dealii::Tensor<2, dim> jacobian;
-            for (unsigned int v = 0; v < n_vertices; ++v)
-              {
-                x += values[q][v] * vertex[v];
-                jacobian += outer_product(vertex[v], gradients[q][v]);
-              }
-            const double part = determinant(jacobian) * quadrature.weight(q);
-            measure += part;
-            first += part * x;
-            second += part * symmetrize(outer_product(x, x));
-          }
-        first /= measure;
-        centroid      = cell->vertex(0) + first;
-        second_moment = second / measure - symmetrize(outer_product(first, first));
-      }
-
-    private:
-      static constexpr unsigned int n_vertices = 1u << dim;
-
-      dealii::QGauss<dim>                                         quadrature;
-      std::vector<std::array<double, n_vertices>>                 values;
-      std::vector<std::array<dealii::Tensor<1, dim>, n_vertices>> gradients;
-    };
-  } // namespace
-
   /// Fills the rows of CellPolynomials, cell by cell.
   template <int dim>
   class CellPolynomials<dim>::Builder
@@ -87,11 +22,16 @@ namespace perideal
     using Cell    = typename CellGraph<dim>::Cell;
     using Stencil = std::vector<LocalIndex>;
 
-    Builder(CellPolynomials &result, const Stiffness &stiffness, const BondPredicate<dim> &is_cut)
+    Builder(CellPolynomials          &result,
+            const Stiffness          &stiffness,
+            const BondPredicate<dim> &is_cut,
+            const bool                share_equal)
       : result(result)
       , graph(result.cells)
       , stiffness(stiffness)
       , is_cut(is_cut)
+      , rounding(coordinate_rounding(result.centroid))
+      , equal(share_equal)
     {
     }
 
@@ -100,19 +40,52 @@ namespace perideal
     {
       node            = graph.node_of(cell);
       Stencil stencil = near(cell);
-      fit_to(stencil);
-      if (!fit.is_complete())
-        complete(cell, stencil);
-      result.is_deficient[node] = !fit.is_solid();
-      result.n_incomplete_cells += !fit.is_complete();
+      collect(stencil);
+      std::size_t *const place = equal.is_looking() ? &place_of_equal() : nullptr;
+      if (place != nullptr && *place != EqualRecords::none)
+        result.row_of.push_back(*place);
+      else
+        {
+          result.row_of.push_back(result.coefficient.size());
+          fit_to(stencil);
+          if (!fit.is_complete())
+            complete(cell, stencil);
+          else if (place != nullptr)
+            *place = result.row_of.back();
+          result.is_deficient[node] = !fit.is_solid();
+          result.n_incomplete_cells += !fit.is_complete();
+          result.coefficient.insert(result.coefficient.end(), fit.rows().begin(), fit.rows().end());
+        }
       for (const LocalIndex k : stencil)
         if (k != node)
           result.column.push_back(k);
-      result.coefficient.insert(result.coefficient.end(), fit.rows().begin(), fit.rows().end());
       result.row.push_back(result.column.size());
     }
 
   private:
+    /// Where the coefficients of complete stencils equal to that collected begin, if one was there before.
+    std::size_t &place_of_equal()
+    {
+      const double size = std::pow(result.volume[node], 1. / dim), of_length = rounding + 1e-14 * size;
+      record.clear();
+      const auto add_moment = [&](const dealii::SymmetricTensor<2, dim> &moment) {
+        for (unsigned int e = 0; e < moment.n_independent_components; ++e)
+          record.push_back({moment.access_raw_entry(e), 4. * of_length * size});
+      };
+      add_moment(result.moments[node]);
+      for (const auto &other : others)
+        {
+          for (int d = 0; d < dim; ++d)
+            record.push_back({other.distance[d], of_length});
+          if (result.unknown == CellUnknown::mean)
+            add_moment(other.second_moment);
+        }
+      std::size_t &result_of = equal.place_of(record);
+      if (!equal.is_looking())
+        result.coefficient.reserve(result.column.capacity());
+      return result_of;
+    }
+
     /// Takes one ring more where that helps, and closes what is left out.
     void complete(const Cell &cell, Stencil &stencil)
     {
@@ -134,7 +107,7 @@ namespace perideal
     }
 
     /// The cells around a cell, and around those behind it.
-    Stencil near(const Cell &cell) const
+    Stencil near(const Cell &cell)
     {
       Stencil stencil = graph.nodes_around(graph.node_of(cell));
       for (const unsigned int f : cell->face_indices())
@@ -192,7 +165,7 @@ namespace perideal
         visit(Cell(cell->neighbor(f)));
     }
 
-    Stencil with_ring(const Cell &cell, const Stencil &stencil) const
+    Stencil with_ring(const Cell &cell, const Stencil &stencil)
     {
       Stencil wider = stencil;
       for (const LocalIndex k : graph.nodes_around(graph.node_of(cell)))
@@ -213,7 +186,7 @@ namespace perideal
     }
 
     /// Sorts a stencil and keeps what is like its cell.
-    void clean(Stencil &stencil) const
+    void clean(Stencil &stencil)
     {
       stencil.erase(
         std::remove_if(stencil.begin(), stencil.end(), [&](const LocalIndex k) { return !is_alike(k); }),
@@ -225,6 +198,27 @@ namespace perideal
       if (!std::is_sorted(stencil.begin(), stencil.end(), before))
         std::sort(stencil.begin(), stencil.end(), before);
       stencil.erase(std::unique(stencil.begin(), stencil.end()), stencil.end());
+      if (equal.is_looking())
+        sort_by_place(stencil);
+    }
+
+    /// Sorts a stencil by where its cells lie, so that those of equal cells are in the same order.
+    void sort_by_place(Stencil &stencil)
+    {
+      // No regular mesh has centroids in the middle between two such lines.
+      const double lines = 161.803398875 / std::pow(result.volume[node], 1. / dim);
+      by_place.clear();
+      for (const LocalIndex k : stencil)
+        {
+          std::array<double, dim> line;
+          for (int d = 0; d < dim; ++d)
+            line[dim - 1 - d] = std::round(lines * (result.centroid[k][d] - result.centroid[node][d]));
+          by_place.emplace_back(line, k);
+        }
+      std::stable_sort(
+        by_place.begin(), by_place.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+      std::transform(
+        by_place.begin(), by_place.end(), stencil.begin(), [](const auto &entry) { return entry.second; });
     }
 
     dealii::SymmetricTensor<2, dim> moment_of_unknown(const LocalIndex k) const
@@ -237,12 +231,17 @@ namespace perideal
     /// lengthen it by a further 20 % and treble the error of that speed at 12 cells a wave.
     double decay() const { return result.unknown == CellUnknown::value ? 0.1 : 0.5; }
 
-    void fit_to(const Stencil &stencil)
+    void collect(const Stencil &stencil)
     {
       others.clear();
       for (const LocalIndex k : stencil)
         if (k != node)
           others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k)});
+    }
+
+    void fit_to(const Stencil &stencil)
+    {
+      collect(stencil);
       fit.reinit(moment_of_unknown(node), others, result.moments[node], decay());
     }
 
@@ -254,6 +253,12 @@ namespace perideal
     QuadraticFit<dim>                             fit;
     std::vector<typename QuadraticFit<dim>::Cell> others;
 
+    /// What coordinates of equal stencils differ by [m].
+    double                                                      rounding;
+    EqualRecords                                                equal;
+    std::vector<EqualRecords::Entry>                            record;
+    std::vector<std::pair<std::array<double, dim>, LocalIndex>> by_place;
+
     std::map<dealii::types::material_id, dealii::SymmetricTensor<4, dim>> stiffness_of;
   };
 
@@ -262,7 +267,8 @@ namespace perideal
                                         const Nodes<dim>         &nodes,
                                         const Stiffness          &stiffness,
                                         const BondPredicate<dim> &is_cut,
-                                        const CellUnknown         unknown)
+                                        const CellUnknown         unknown,
+                                        const bool                share_equal)
     : cells(mesh, nodes, GhostLayers::two)
     , unknown(unknown)
     , moments(nodes.size())
@@ -270,7 +276,7 @@ namespace perideal
     , volume(nodes.volume)
     , is_deficient(nodes.size(), false)
   {
-    const CellIntegrals<dim>                   integrals;
+    const CellMoments<dim>                     integrals;
     std::vector<typename CellGraph<dim>::Cell> cell_of_node(nodes.size());
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -281,19 +287,18 @@ namespace perideal
         }
     centroid = cells.with_ghosts(centroid);
     moments  = cells.with_ghosts(moments);
-    // What regular meshes take.
-    const std::size_t n_entries =
-      (dealii::Utilities::pow(3, dim) - 1) * static_cast<std::size_t>(nodes.size());
     row.reserve(nodes.size() + 1);
-    column.reserve(n_entries);
-    coefficient.reserve(n_entries);
-    Builder      builder(*this, stiffness, is_cut);
+    row_of.reserve(nodes.size());
+    // What regular meshes take.
+    column.reserve((dealii::Utilities::pow(3, dim) - 1) * static_cast<std::size_t>(nodes.size()));
+    Builder      builder(*this, stiffness, is_cut, share_equal);
     WorkProgress progress("fitting polynomials", cell_of_node.size());
     for (LocalIndex i = 0; i < cell_of_node.size(); ++i)
       {
         progress(i);
         builder.add(cell_of_node[i]);
       }
+    coefficient.shrink_to_fit();
     cells.forget_layers();
   }
 
@@ -301,9 +306,10 @@ namespace perideal
   std::size_t CellPolynomials<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(row) + memory_consumption(column) + coefficient.size() * sizeof(Terms) +
-           moments.size() * sizeof(moments[0]) + memory_consumption(centroid) + memory_consumption(volume) +
-           cells.memory_consumption() + closures.memory_consumption();
+    return memory_consumption(row) + memory_consumption(row_of) + memory_consumption(column) +
+           coefficient.size() * sizeof(Terms) + moments.size() * sizeof(moments[0]) +
+           memory_consumption(centroid) + memory_consumption(volume) + cells.memory_consumption() +
+           closures.memory_consumption();
   }
 
   PERIDEAL_INSTANTIATE_CLASS(CellPolynomials)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/equal_records.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/reconstruction/face_moments.h>
 
@@ -6,6 +7,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace perideal
 {
@@ -89,12 +91,15 @@ namespace perideal
             const CellGraph<dim>                                          &graph,
             const double                                                   thickness,
             const std::function<double(const dealii::types::material_id)> &stiffness,
-            const BondPredicate<dim>                                      &is_cut)
+            const BondPredicate<dim>                                      &is_cut,
+            const bool                                                     share_equal)
       : result(result)
       , graph(graph)
       , thickness(thickness)
       , stiffness(stiffness)
       , is_cut(is_cut)
+      , rounding(coordinate_rounding(graph.position))
+      , equal(share_equal)
     {
     }
 
@@ -171,34 +176,73 @@ namespace perideal
 
     void add(const FacePoints<dim> &points, Face face)
     {
-      using M                    = Monomials<dim>;
-      std::vector<double> &value = result.value;
       for (const auto &p : points)
         face.centre += p.point / static_cast<double>(points.size());
       face.is_plane = is_plane(points);
-      face.first    = value.size();
+      find_moments(points, face);
+      face.first = place_of_moments(points, face);
+      result.list.push_back(face);
+    }
+
+    /// Sets moments to those of a face.
+    void find_moments(const FacePoints<dim> &points, const Face &face)
+    {
+      using M = Monomials<dim>;
+      moments.clear();
       dealii::Tensor<1, dim> normal;
       if (face.is_plane)
         {
           normal = points[0].area / points[0].area.norm();
           for (unsigned int l = 0; l < dim; ++l)
-            value.push_back(normal[l]);
+            moments.push_back(normal[l]);
         }
-      const std::size_t at = value.size();
-      value.resize(at + (face.is_plane ? 1 : dim) * M::n, 0.);
+      const std::size_t at = moments.size();
+      moments.resize(at + (face.is_plane ? 1 : dim) * M::n, 0.);
       std::array<double, M::n> monomials;
       for (const auto &p : points)
         {
           M::evaluate(p.point - face.centre, monomials);
           if (face.is_plane)
             for (unsigned int m = 0; m < M::n; ++m)
-              value[at + m] += (p.area * normal) * monomials[m];
+              moments[at + m] += (p.area * normal) * monomials[m];
           else
             for (unsigned int l = 0; l < dim; ++l)
               for (unsigned int m = 0; m < M::n; ++m)
-                value[at + l * M::n + m] += p.area[l] * monomials[m];
+                moments[at + l * M::n + m] += p.area[l] * monomials[m];
         }
-      result.list.push_back(face);
+    }
+
+    /// Where moments stand in the values of all, to which they are added where no equal ones do.
+    std::size_t place_of_moments(const FacePoints<dim> &points, const Face &face)
+    {
+      std::size_t *const equal_place = equal.is_looking() ? &place_of_equal(points, face) : nullptr;
+      if (equal_place != nullptr && *equal_place != EqualRecords::none)
+        return *equal_place;
+      const std::size_t place = result.value.size();
+      result.value.insert(result.value.end(), moments.begin(), moments.end());
+      if (equal_place != nullptr)
+        *equal_place = place;
+      return place;
+    }
+
+    /// Where moments equal to those found stand, if some were there before.
+    std::size_t &place_of_equal(const FacePoints<dim> &points, const Face &face)
+    {
+      using M     = Monomials<dim>;
+      double area = 0, size = 0;
+      for (const auto &p : points)
+        {
+          area += p.area.norm();
+          size = std::max(size, 2. * p.point.distance(face.centre));
+        }
+      const double relative = 1e-14 + rounding / size;
+      record.clear();
+      const std::size_t n_normals = face.is_plane ? dim : 0;
+      for (std::size_t m = 0; m < n_normals; ++m)
+        record.push_back({moments[m], relative});
+      for (std::size_t m = n_normals; m < moments.size(); ++m)
+        record.push_back({moments[m], relative * area * std::pow(size, M::degree((m - n_normals) % M::n))});
+      return equal.place_of(record);
     }
 
     FaceMoments                                                   &result;
@@ -207,22 +251,29 @@ namespace perideal
     const std::function<double(const dealii::types::material_id)> &stiffness;
     const BondPredicate<dim>                                      &is_cut;
     std::vector<OpenFace>                                          open;
+
+    /// What coordinates of equal faces differ by [m].
+    double                           rounding;
+    EqualRecords                     equal;
+    std::vector<EqualRecords::Entry> record;
+    /// Of the face that is added.
+    std::vector<double> moments;
   };
 
   template <int dim>
   FaceMoments<dim>::FaceMoments(const Mesh<dim>                                               &mesh,
                                 const CellGraph<dim>                                          &graph,
                                 const std::function<double(const dealii::types::material_id)> &stiffness,
-                                const BondPredicate<dim>                                      &is_cut)
+                                const BondPredicate<dim>                                      &is_cut,
+                                const bool                                                     share_equal)
   {
     list.reserve(mesh.triangulation.n_active_faces());
-    value.reserve(list.capacity() * (dim + Monomials<dim>::n));
     // In the order of the nodes, so that those of a cell's faces lie close in memory.
     std::vector<Cell> cells(graph.n_owned());
     for (const Cell &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         cells[graph.node_of(cell)] = cell;
-    Builder    builder(*this, graph, mesh.thickness, stiffness, is_cut);
+    Builder    builder(*this, graph, mesh.thickness, stiffness, is_cut, share_equal);
     const auto visit = [&](const bool at_boundary, const auto &act) {
       for (const Cell &cell : cells)
         for (const unsigned int f : cell->face_indices())
@@ -234,6 +285,8 @@ namespace perideal
     builder.add_open_faces();
     first_at_boundary = list.size();
     visit(true, [&](const Cell &cell, const unsigned int f) { builder.add_boundary_face(cell, f); });
+    list.shrink_to_fit();
+    value.shrink_to_fit();
   }
 
   template <int dim>

@@ -8,6 +8,7 @@ perideal_room(reconstruction
     family_quadratics.cc
     point_interpolation.cc
   LOOPS
+    cell_moments.cc
     cell_polynomials.cc
     face_gradient.cc
     face_moments.cc

@@ -42,6 +42,8 @@ namespace perideal
    *
    * A crack ends the body as its boundary does: no stencil reaches across.
    *
+   * Cells whose stencils are equal but for rounding share their coefficients.
+   *
    * Nodes are numbered as in the cell graph.
    */
   template <int dim>
@@ -56,11 +58,13 @@ namespace perideal
     /// Collective.
     /// @param stiffness of displacements whose polynomials are closed, which needs means; without it, none is
     /// @param is_cut whether a crack separates the cells of two nodes; empty: none does
+    /// @param share_equal whether equal stencils are looked for
     CellPolynomials(const Mesh<dim>          &mesh,
                     const Nodes<dim>         &nodes,
-                    const Stiffness          &stiffness = {},
-                    const BondPredicate<dim> &is_cut    = {},
-                    const CellUnknown         unknown   = CellUnknown::mean);
+                    const Stiffness          &stiffness   = {},
+                    const BondPredicate<dim> &is_cut      = {},
+                    const CellUnknown         unknown     = CellUnknown::mean,
+                    const bool                share_equal = true);
 
     const CellGraph<dim> &graph() const { return cells; }
 
@@ -70,10 +74,13 @@ namespace perideal
     /// Volumes of owned cells [m^3].
     const std::vector<double> &volumes() const { return volume; }
 
-    /// R of owned cells: entries of cell i are [first[i], first[i+1]), that of the cell itself left out.
+    /// Columns of R of owned cells: those of cell i are [first[i], first[i+1]), the cell itself left out.
     const std::vector<BondIndex>  &first() const { return row; }
     const std::vector<LocalIndex> &columns() const { return column; }
-    const std::vector<Terms>      &coefficients() const { return coefficient; }
+    /// R of an owned cell, in the order of its columns.
+    const Terms *coefficients(const LocalIndex i) const { return coefficient.data() + row_of[i]; }
+    /// Columns of this rank whose coefficients are those of another cell.
+    std::size_t n_shared() const { return column.size() - coefficient.size(); }
 
     /// Calls visit(node, weight) for what the value of an owned cell's polynomial at a point takes of means.
     template <typename Visit>
@@ -81,13 +88,14 @@ namespace perideal
     {
       std::array<double, Monomials<dim>::n> monomial;
       Monomials<dim>::evaluate(point - centroid[i], monomial);
-      const auto of_unknown = at_unknown(i);
-      double     own        = 1.;
-      for (BondIndex k = row[i]; k < row[i + 1]; ++k)
+      const auto   of_unknown = at_unknown(i);
+      const Terms *of_column  = coefficients(i);
+      double       own        = 1.;
+      for (BondIndex k = row[i]; k < row[i + 1]; ++k, ++of_column)
         {
           double weight = 0;
           for (unsigned int t = 0; t < n_terms; ++t)
-            weight += coefficient[k][t] * (monomial[1 + t] - (t < dim ? 0. : of_unknown[t - dim]));
+            weight += (*of_column)[t] * (monomial[1 + t] - (t < dim ? 0. : of_unknown[t - dim]));
           own -= weight;
           visit(column[k], weight);
         }
@@ -130,10 +138,12 @@ namespace perideal
     std::vector<double>                          volume;
     std::vector<BondIndex>                       row = {0};
     std::vector<LocalIndex>                      column;
-    std::vector<Terms>                           coefficient;
-    std::vector<bool>                            is_deficient;
-    LocalIndex                                   n_incomplete_cells = 0;
-    PolynomialClosure<dim>                       closures;
+    /// Coefficients of different stencils, and where those of each cell begin.
+    std::vector<Terms>     coefficient;
+    std::vector<BondIndex> row_of;
+    std::vector<bool>      is_deficient;
+    LocalIndex             n_incomplete_cells = 0;
+    PolynomialClosure<dim> closures;
   };
 } // namespace perideal
 

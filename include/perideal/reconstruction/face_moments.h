@@ -21,6 +21,8 @@ namespace perideal
    * with their normal and with their first moment. On plane faces they are n_l t_m with one normal; bilinear
    * ones have three such rows.
    *
+   * Faces that are equal but for rounding share them.
+   *
    * A face between cells of different sizes is one face for each of the finer cells. One that a crack crosses
    * is open: two faces, each of the cell on its side.
    */
@@ -49,10 +51,12 @@ namespace perideal
     /// @param stiffness of a material, in any unit: at a face between two materials the stiffer one counts
     /// more
     /// @param is_cut whether a crack separates the cells of two nodes; empty: none does
+    /// @param share_equal whether equal faces are looked for
     FaceMoments(const Mesh<dim>                                               &mesh,
                 const CellGraph<dim>                                          &graph,
                 const std::function<double(const dealii::types::material_id)> &stiffness,
-                const BondPredicate<dim>                                      &is_cut = {});
+                const BondPredicate<dim>                                      &is_cut      = {},
+                const bool                                                     share_equal = true);
 
     /// Inner faces, then open ones, then those at the boundary in the order of their number among the
     /// boundary points.

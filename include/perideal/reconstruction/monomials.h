@@ -23,6 +23,11 @@ namespace perideal
     static constexpr unsigned int n_cubic        = dim == 2 ? 4 : 10;
     static constexpr unsigned int n              = n_coefficients + n_cubic;
 
+    static constexpr unsigned int degree(const unsigned int m)
+    {
+      return m == 0 ? 0 : m < 1 + dim ? 1 : m < n_coefficients ? 2 : 3;
+    }
+
     /// Number of the monomial that monomial @p m, at most quadratic, becomes when it is multiplied with axis
     /// @p k.
     static constexpr unsigned int times(const unsigned int m, const unsigned int k)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
-#include <perideal/operators/linear/bond_blocks.h>
 #include <perideal/operators/linear/cell_block.h>
 #include <perideal/operators/linear/consistent_operator.h>
 #include <perideal/operators/weights/gradient_rows.h>
@@ -18,7 +17,9 @@
 //     xi_a (p_j - p_i) - 1/2 [ (F_i xi)_a xi.G_i + (F_j xi)_a xi.G_j ],   G that of the component,
 //
 // F being 1 in a body at rest. In a deformed one, the first xi_a is y_a, and b r (p_j - p_i)(p_j - p_i)^T
-// adds to it.
+// adds to it. Diagonal blocks take of bonds what they pull at the values of their ends, p_j - p_i = 1 and
+// G = 0: the rest, of the other columns, costs more than all cells and does not change how well they
+// precondition.
 
 namespace perideal
 {
@@ -26,6 +27,13 @@ namespace perideal
   {
     template <int dim>
     using Row = typename GradientRows<dim>::Row;
+
+    /// A bond, where it pulls its ends, and where it feels the gradients there [m]: xi, y, F_i xi and F_j xi.
+    template <int dim>
+    struct BondDirections
+    {
+      dealii::Tensor<1, dim> bond, pull, near, far;
+    };
 
     /// dr/du of a bond and the difference p_j - p_i, by column.
     template <int dim>
@@ -99,11 +107,8 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  GradientRows<dim> ConsistentOperator<dim>::make_rows() const
+  GradientRows<dim> ConsistentOperator<dim>::make_rows(const std::vector<GlobalIndex> &wanted) const
   {
-    std::vector<GlobalIndex> wanted;
-    for (LocalIndex j = families->n_owned(); j < families->n_local(); ++j)
-      wanted.push_back(families->global_number(j));
     return GradientRows<dim>(
       moments->cell_polynomials(), moments->faces(), moments->prescribed_values(), wanted);
   }
@@ -189,65 +194,30 @@ namespace perideal
   template <int dim>
   std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
   {
-    using Ends                               = typename BondBlocks<dim>::Ends;
-    const LocalIndex                    n    = families->n_owned();
-    const GradientRows<dim>             rows = make_rows();
+    const GradientRows<dim>             rows = make_rows({});
     std::vector<dealii::Tensor<2, dim>> blocks(rows.n_columns());
-    BondBlocks<dim>                     of_bonds(blocks);
-    // Kept from the first bond that reaches a cell to its last; closed rows whole.
-    struct Kept
-    {
-      std::unique_ptr<Ends>     ends;
-      std::unique_ptr<Row<dim>> closed;
-    };
-    std::vector<Kept> kept(families->n_local());
-    Row<dim>          row;
-    const auto        make = [&](const LocalIndex i) -> const Kept        &{
-      if (kept[i].ends)
-        return kept[i];
-      if (i < n)
-        {
-          rows.compute(i, row);
-          visit_blocks(i, row, [&](const auto &block) {
-            for (std::size_t k = 0; k < row.column.size(); ++k)
-              blocks[row.column[k]] += block(k, k);
-          });
-          row.forget_moments();
-        }
-      const Row<dim> &made = i < n ? row : rows.at(families->global_number(i));
-      kept[i].ends         = std::make_unique<Ends>(made);
-      if (made.is_closed())
-        kept[i].closed = std::make_unique<Row<dim>>(made);
-      return kept[i];
-    };
-    BondRow<dim> of_bond(rows.n_columns());
-    Row<dim>     again[2];
-    // A row that is closed, or that of a cell beside such one.
-    const auto whole_row = [&](const LocalIndex i, Row<dim> &work) -> const Row<dim> & {
-      if (kept[i].closed)
-        return *kept[i].closed;
-      if (i >= n)
-        return rows.at(families->global_number(i));
-      rows.compute(i, work);
-      return work;
-    };
-    for (LocalIndex i = 0; i < n; ++i)
+    const BondList                     &list = bonds->list();
+    Row<dim>                            row;
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
-        of_bonds.start(*make(i).ends);
-        visit_bonds_of(
-          i, [&](const LocalIndex j, const BondDirections<dim> &directions, const BondIndex slot) {
-            const double stiffness = bonds->stiffness(slot);
-            if (make(j).closed || kept[i].closed)
-              {
-                of_bond.compute(directions, whole_row(i, again[0]), whole_row(j, again[1]));
-                for (std::size_t k = 0; k < of_bond.columns.size(); ++k)
-                  blocks[of_bond.columns[k]] += of_bond.block_of(k, k, stiffness, 0.);
-              }
-            else
-              of_bonds.add(directions, stiffness, deformed ? deformed->tension(slot) : 0., *kept[j].ends);
-          });
-        of_bonds.finish();
-        kept[i] = {};
+        rows.compute(i, row);
+        visit_blocks(i, row, [&](const auto &block) {
+          for (std::size_t k = 0; k < row.column.size(); ++k)
+            blocks[row.column[k]] += block(k, k);
+        });
+        for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
+          if (const double stiffness = bonds->stiffness(slot); stiffness != 0.)
+            {
+              const LocalIndex j     = list.neighbour[slot];
+              const auto       bond  = deformed ? deformed->bond(i, j) : bonds->bond(i, j);
+              auto             block = stiffness * outer_product(bond, bond);
+              for (int a = 0; a < dim; ++a)
+                block[a][a] += deformed ? deformed->tension(slot) : 0.;
+              // One that the partition cuts is at the ends of both ranks.
+              blocks[i] += block;
+              if (j < families->n_owned())
+                blocks[j] += block;
+            }
       }
     return rows.sum_to_owners(blocks);
   }
@@ -255,7 +225,10 @@ namespace perideal
   template <int dim>
   void ConsistentOperator<dim>::assemble(const typename BondOperator<dim>::AddBlock &add) const
   {
-    const GradientRows<dim>  rows = make_rows();
+    std::vector<GlobalIndex> at_bonds;
+    for (LocalIndex j = families->n_owned(); j < families->n_local(); ++j)
+      at_bonds.push_back(families->global_number(j));
+    const GradientRows<dim>  rows = make_rows(at_bonds);
     std::vector<GlobalIndex> unknowns;
     std::vector<double>      values;
     const auto               hand_out = [&](const std::vector<LocalIndex> &columns, const auto &block) {

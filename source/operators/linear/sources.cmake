@@ -9,7 +9,6 @@ perideal_room(operators/linear
     taylor_extension.cc
     zoned_tangent.cc
   LOOPS
-    bond_blocks.cc
     bond_operator.cc
     consistent_operator.cc
     consistent_operator_loops.cc

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/equal_records.h>
 #include <perideal/base/instantiate.h>
 #include <perideal/boundary/body_forces.h>
 #include <perideal/nodes/node_partitioner.h>
@@ -23,7 +24,6 @@ namespace perideal
     , face_moments(face_moments)
     , prescribed(prescribed)
     , n_owned_cells(polynomials->graph().n_owned())
-    , n_inner_faces(face_moments->n_inner_faces())
   {
     number(communicator);
     collect_faces();
@@ -88,25 +88,44 @@ namespace perideal
   template <int dim>
   void GradientMoments<dim>::collect_faces()
   {
-    faces_of_cells.reserve(face_moments->faces().size());
+    list.faces.reserve(face_moments->faces().size());
+    const double                     rounding = coordinate_rounding(polynomials->centroids());
+    EqualRecords                     equal(true);
+    std::vector<EqualRecords::Entry> record;
     for (const auto &from : face_moments->faces())
       {
-        Face face{};
-        face.is_plane = from.is_plane;
-        face.moments  = face_moments->values().data() + from.first;
+        Face  face{};
+        Shape shape{};
+        shape.is_plane = from.is_plane;
+        shape.moments  = face_moments->values().data() + from.first;
+        record.assign(1, {static_cast<double>(from.first), 0.5});
         for (unsigned int s = 0; s < 2; ++s)
           {
-            face.cell[s]  = from.node[s];
-            face.share[s] = from.share[s];
+            face.cell[s]   = from.node[s];
+            shape.share[s] = from.share[s];
+            record.push_back({from.share[s], 1e-14});
             if (from.node[s] == FaceMoments<dim>::none)
               continue;
+            const dealii::Tensor<1, dim> offset = from.centre - polynomials->centroids()[from.node[s]];
             for (int d = 0; d < dim; ++d)
-              face.offset[s][d] = from.centre[d] - polynomials->centroids()[from.node[s]][d];
+              {
+                shape.offset[s][d] = offset[d];
+                record.push_back({offset[d], rounding + 1e-14 * offset.norm()});
+              }
             if (from.node[s] >= n_owned_cells)
               face.cell[s] = polynomial_of_ghost[from.node[s] - n_owned_cells];
           }
-        faces_of_cells.push_back(face);
+        std::size_t  own   = EqualRecords::none;
+        std::size_t &place = equal.is_looking() ? equal.place_of(record) : own;
+        if (place == EqualRecords::none)
+          {
+            place = list.shapes.size();
+            list.shapes.push_back(shape);
+          }
+        face.shape = static_cast<std::uint32_t>(place);
+        list.faces.push_back(face);
       }
+    list.shapes.shrink_to_fit();
   }
 
   template <int dim>
@@ -209,7 +228,8 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return polynomials->memory_consumption() + face_moments->memory_consumption() +
-           memory_consumption(column) + faces_of_cells.size() * sizeof(Face) +
+           memory_consumption(column) + list.faces.size() * sizeof(Face) +
+           list.shapes.size() * sizeof(Shape) +
            (work.displacement.size() + work.polynomial.size() + work.gradient.size() + work.moment.size() +
             work.value_force.size() + work.trace_force.size()) *
              sizeof(NodeRecord);

@@ -49,18 +49,17 @@ namespace perideal
     update_ghosts(*of_displacements, work.displacement, work.temporary);
     constexpr unsigned int n_terms = Monomials<dim>::n_terms;
     const NodeRecord      *u       = work.displacement.data();
-    const auto            &rows    = polynomials->coefficients();
     const auto            &first   = polynomials->first();
     const auto            &closure = polynomials->closure();
     auto                   closed  = closure.cells().begin();
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
       {
-        Lanes       c[n_terms] = {};
-        const Lanes own        = lanes(u[i]);
-        for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+        Lanes         c[n_terms] = {};
+        const Lanes   own        = lanes(u[i]);
+        const double *row        = polynomials->coefficients(i)->data();
+        for (BondIndex k = first[i]; k < first[i + 1]; ++k, row += n_terms)
           {
-            const Lanes   difference = lanes(u[column[k]]) - own;
-            const double *row        = rows[k].data();
+            const Lanes difference = lanes(u[column[k]]) - own;
             for (unsigned int t = 0; t < n_terms; ++t)
               c[t] += row[t] * difference;
           }
@@ -94,35 +93,38 @@ namespace perideal
   {
     std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
     std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
-    const auto add = [&](const Face &face, const unsigned int side, const FaceSums<dim> &sums) {
-      const LocalIndex i = face.cell[side];
-      if (i >= n_owned_cells)
-        return;
-      const double sign = side == 0 ? 1. : -1.;
-      NodeRecord  *g = gradient(i), *h = moment(i);
-      for (unsigned int l = 0; l < dim; ++l)
-        {
-          const Lanes value = sign * sums.gradient[l];
-          lanes(g[l]) += value;
-          for (unsigned int k = 0; k < dim; ++k)
-            lanes(h[dim * k + l]) += sign * sums.moment[k][l] + face.offset[side][k] * value;
-        }
-    };
-    auto next = held.begin();
-    for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
+    const auto add =
+      [&](const Face &face, const Shape &shape, const unsigned int side, const FaceSums<dim> &sums) {
+        const LocalIndex i = face.cell[side];
+        if (i >= n_owned_cells)
+          return;
+        const double sign = side == 0 ? 1. : -1.;
+        NodeRecord  *g = gradient(i), *h = moment(i);
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            const Lanes value = sign * sums.gradient[l];
+            lanes(g[l]) += value;
+            for (unsigned int k = 0; k < dim; ++k)
+              lanes(h[dim * k + l]) += sign * sums.moment[k][l] + shape.offset[side][k] * value;
+          }
+      };
+    const std::size_t n_inner_faces = face_moments->n_inner_faces();
+    auto              next          = held.begin();
+    for (std::size_t f = 0; f < list.faces.size(); ++f)
       {
         if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, faces_of_cells[f + n_ahead].cell[1]);
-        const Face   &face                       = faces_of_cells[f];
+          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
+        const Face   &face                       = list.faces[f];
+        const Shape  &shape                      = list.shapes[face.shape];
         const bool    is_inner                   = f < n_inner_faces;
         Lanes         polynomial[n_coefficients] = {};
         FaceSums<dim> sums;
         for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
           add_shifted<dim>(work.polynomial.data() + n_coefficients * face.cell[side],
-                           face.offset[side],
-                           face.share[side],
+                           shape.offset[side],
+                           shape.share[side],
                            polynomial);
-        integrate<dim>(face.moments, face.is_plane, polynomial, sums);
+        integrate<dim>(shape.moments, shape.is_plane, polynomial, sums);
         if (!is_inner && next != held.end() && next->first == f)
           {
             const Held &of_face = next->second;
@@ -148,7 +150,7 @@ namespace perideal
             ++next;
           }
         for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
-          add(face, side, sums);
+          add(face, shape, side, sums);
       }
   }
 
@@ -181,7 +183,7 @@ namespace perideal
   void GradientMoments<dim>::spread_to_faces() const
   {
     std::fill(work.polynomial.begin(), work.polynomial.end(), NodeRecord{});
-    const auto add = [&](const Face &face, const unsigned int side, FaceSums<dim> &sums) {
+    const auto add = [&](const Face &face, const Shape &shape, const unsigned int side, FaceSums<dim> &sums) {
       const LocalIndex i = face.cell[side];
       if (i >= n_owned_cells)
         return;
@@ -192,23 +194,25 @@ namespace perideal
           Lanes pull = lanes(g[l]);
           for (unsigned int k = 0; k < dim; ++k)
             {
-              pull += face.offset[side][k] * lanes(h[dim * k + l]);
+              pull += shape.offset[side][k] * lanes(h[dim * k + l]);
               sums.moment[k][l] += sign * lanes(h[dim * k + l]);
             }
           sums.gradient[l] += sign * pull;
         }
     };
-    auto next = held.begin();
-    for (std::size_t f = 0; f < faces_of_cells.size(); ++f)
+    const std::size_t n_inner_faces = face_moments->n_inner_faces();
+    auto              next          = held.begin();
+    for (std::size_t f = 0; f < list.faces.size(); ++f)
       {
         if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, faces_of_cells[f + n_ahead].cell[1]);
-        const Face        &face    = faces_of_cells[f];
+          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
+        const Face        &face    = list.faces[f];
+        const Shape       &shape   = list.shapes[face.shape];
         const unsigned int n_sides = f < n_inner_faces ? 2 : 1;
         FaceSums<dim>      sums    = {};
         Lanes              polynomial[n_coefficients];
         for (unsigned int side = 0; side < n_sides; ++side)
-          add(face, side, sums);
+          add(face, shape, side, sums);
         if (n_sides == 1 && next != held.end() && next->first == f)
           {
             const Held &of_face = next->second;
@@ -220,11 +224,11 @@ namespace perideal
               }
             ++next;
           }
-        integrate_back<dim>(face.moments, face.is_plane, sums, polynomial);
+        integrate_back<dim>(shape.moments, shape.is_plane, sums, polynomial);
         for (unsigned int side = 0; side < n_sides; ++side)
           add_shifted_back<dim>(polynomial,
-                                face.offset[side],
-                                face.share[side],
+                                shape.offset[side],
+                                shape.share[side],
                                 work.polynomial.data() + n_coefficients * face.cell[side]);
       }
     add_to_owners(*of_polynomials, work.polynomial, work.temporary);
@@ -235,7 +239,6 @@ namespace perideal
   {
     constexpr unsigned int n_terms  = Monomials<dim>::n_terms;
     NodeRecord            *f        = work.displacement.data();
-    const auto            &rows     = polynomials->coefficients();
     const auto            &first    = polynomials->first();
     const NodeRecord      *acting   = work.polynomial.data() + n_coefficients * i;
     const Lanes            on_value = lanes(acting[0]) + lanes(work.value_force[i]);
@@ -248,11 +251,11 @@ namespace perideal
       c[dim + p] += means[p] * on_trace - of_unknown[p] * on_value;
     if (is_closed(*polynomials, i, n))
       polynomials->closure().add_transposed(n, c);
-    Lanes own = on_value;
-    for (BondIndex k = first[i]; k < first[i + 1]; ++k)
+    Lanes         own = on_value;
+    const double *row = polynomials->coefficients(i)->data();
+    for (BondIndex k = first[i]; k < first[i + 1]; ++k, row += n_terms)
       {
-        const double *row = rows[k].data();
-        Lanes         sum = row[0] * c[0];
+        Lanes sum = row[0] * c[0];
         for (unsigned int t = 1; t < n_terms; ++t)
           sum += row[t] * c[t];
         lanes(f[column[k]]) += sum;

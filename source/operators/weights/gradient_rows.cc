@@ -111,8 +111,11 @@ namespace perideal
   void GradientRows<dim>::visit_polynomial(const LocalIndex node, const Visit &visit) const
   {
     if (node < polynomials.graph().n_owned())
-      for (BondIndex k = polynomials.first()[node]; k < polynomials.first()[node + 1]; ++k)
-        visit(polynomials.columns()[k], polynomials.coefficients()[k]);
+      {
+        const Terms *row = polynomials.coefficients(node);
+        for (BondIndex k = polynomials.first()[node]; k < polynomials.first()[node + 1]; ++k, ++row)
+          visit(polynomials.columns()[k], *row);
+      }
     else
       {
         const Polynomial &polynomial = of_ghosts.at(node);

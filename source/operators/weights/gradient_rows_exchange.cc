@@ -117,12 +117,12 @@ namespace perideal
       wanted,
       [&](const GlobalIndex number) {
         PackedPolynomial<dim> result;
-        const LocalIndex      i = number - graph.global_number(0);
-        for (BondIndex k = polynomials.first()[i]; k < polynomials.first()[i + 1]; ++k)
+        const LocalIndex      i   = number - graph.global_number(0);
+        const Terms          *row = polynomials.coefficients(i);
+        for (BondIndex k = polynomials.first()[i]; k < polynomials.first()[i + 1]; ++k, ++row)
           {
             result.column.push_back(graph.global_number(polynomials.columns()[k]));
-            const Terms &row = polynomials.coefficients()[k];
-            result.row.insert(result.row.end(), row.begin(), row.end());
+            result.row.insert(result.row.end(), row->begin(), row->end());
           }
         const auto directions = polynomials.closure().directions(i);
         result.directions.assign(directions.begin(), directions.end());

@@ -43,7 +43,8 @@ namespace perideal
     /// so that it becomes the energy stored, on this rank [J].
     virtual double energy_of_expansion() const { return 0.; }
 
-    /// The dim x dim blocks on the diagonal of K, by owned node [N/m]. Collective.
+    /// The dim x dim blocks on the diagonal of K, or what preconditions as well, by owned node [N/m].
+    /// Collective.
     virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
 
     using AddBlock = perideal::AddBlock;

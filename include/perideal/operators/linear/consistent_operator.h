@@ -56,6 +56,7 @@ namespace perideal
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
     void add_increments(NodalVector &force) const override;
+    /// Blocks near those on the diagonal: of bonds they have what the values at their ends do.
     std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
@@ -87,8 +88,8 @@ namespace perideal
     /// times the volume, and out of C times the moments, and adds what it does to the energy.
     void take_expansion(const LocalIndex i, Pairs &stress, Pairs *of_moment) const;
 
-    /// Rows of the gradients, with those of the ghosts that bonds reach. Collective.
-    GradientRows<dim> make_rows() const;
+    /// Rows of the gradients, with those of wanted cells of other ranks. Collective.
+    GradientRows<dim> make_rows(const std::vector<GlobalIndex> &wanted) const;
     /// Calls visit(j, directions, slot) for the bonds of an owned cell that are this rank's, each once.
     template <typename Visit>
     void visit_bonds_of(const LocalIndex i, const Visit &visit) const;

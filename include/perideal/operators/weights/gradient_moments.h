@@ -11,6 +11,7 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -113,15 +114,20 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
-    /// A face as the loops read it: cells in the numbers of polynomials, offsets of its centre from theirs
-    /// [m].
+    /// What the loops read of a face beside its cells; equal faces share it.
+    struct Shape
+    {
+      bool   is_plane;
+      double share[2];
+      /// Of the centre of the face from the centroids [m].
+      double        offset[2][dim];
+      const double *moments;
+    };
+    /// A face as the loops read it: cells in the numbers of polynomials.
     struct Face
     {
       LocalIndex    cell[2];
-      bool          is_plane;
-      double        share[2];
-      double        offset[2][dim];
-      const double *moments;
+      std::uint32_t shape;
     };
     /// Components of a boundary face that are prescribed: 1 where so. Of a face that slides the normal, along
     /// which it does not move; else 0.
@@ -161,8 +167,12 @@ namespace perideal
     std::vector<LocalIndex>                                    column;
     std::vector<LocalIndex>                                    polynomial_of_ghost;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_displacements, of_polynomials;
-    std::vector<Face>                                          faces_of_cells;
-    std::size_t                                                n_inner_faces;
+    struct FaceList
+    {
+      std::vector<Face>  faces;
+      std::vector<Shape> shapes;
+    };
+    FaceList list;
     /// By face, all of them at the boundary.
     std::map<std::size_t, Held> held;
 
