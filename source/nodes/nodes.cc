@@ -78,8 +78,8 @@ namespace perideal
       "Share equal families",
       share_equal_families,
       "Whether families that are identical but for rounding, as in structured parts of a mesh, "
-      "are weighed once and share their weights, where many are; false weighs each: for "
-      "comparisons of time and memory");
+      "are weighed once and share their weights, where many are, and cells of the consistent form "
+      "their polynomials and faces; false: each has its own, for comparisons of time and memory");
     prm.add_parameter(
       "Families on demand",
       families_on_demand,

@@ -65,6 +65,8 @@ namespace perideal
                           std::sqrt(std::max(0., 1. + 2. * solid.strain_in_space(green_strain(H))[2][2]));
       }
 
+      const SymmetricTensor<4, dim> *constant_modulus() const override { return &solid.stiffness(); }
+
     private:
       static SymmetricTensor<2, dim> green_strain(const Tensor<2, dim> &H)
       {

@@ -26,12 +26,16 @@ namespace perideal
                          const double                expansion = 0.,
                          const HyperelasticLaw<3>   *in_space  = nullptr);
 
-    double                        energy(const dealii::Tensor<2, dim> &H) const override;
-    dealii::Tensor<2, dim>        stress(const dealii::Tensor<2, dim> &H) const override;
-    dealii::Tensor<4, dim>        tangent(const dealii::Tensor<2, dim> &H) const override;
-    dealii::SymmetricTensor<2, 3> cauchy_stress(const dealii::Tensor<2, dim> &H) const override;
-    double                        thickness_stretch(const dealii::Tensor<2, dim> &H) const override;
-    bool                          is_linear() const override { return law.is_linear(); }
+    double                                 energy(const dealii::Tensor<2, dim> &H) const override;
+    dealii::Tensor<2, dim>                 stress(const dealii::Tensor<2, dim> &H) const override;
+    dealii::Tensor<4, dim>                 tangent(const dealii::Tensor<2, dim> &H) const override;
+    dealii::SymmetricTensor<2, 3>          cauchy_stress(const dealii::Tensor<2, dim> &H) const override;
+    double                                 thickness_stretch(const dealii::Tensor<2, dim> &H) const override;
+    bool                                   is_linear() const override { return law.is_linear(); }
+    const dealii::SymmetricTensor<4, dim> *constant_modulus() const override
+    {
+      return expansion == 0. ? law.constant_modulus() : nullptr;
+    }
 
   private:
     /// H of the elastic part.

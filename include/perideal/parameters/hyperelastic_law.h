@@ -48,6 +48,10 @@ namespace perideal
 
     /// Whether the tangent is that at rest, whatever the deformation.
     virtual bool is_linear() const { return false; }
+
+    /// dS/dE of the second Piola-Kirchhoff stress with Green's strain [Pa], where it is the same at every
+    /// strain; else null.
+    virtual const dealii::SymmetricTensor<4, dim> *constant_modulus() const { return nullptr; }
   };
 
   /// Laws by material id.

@@ -3,6 +3,8 @@
 #include <perideal/base/record_exchange.h>
 #include <perideal/operators/linear/deformed_cells.h>
 
+#include <map>
+
 namespace perideal
 {
   template <int dim>
@@ -14,18 +16,47 @@ namespace perideal
     , bonds(bonds)
     , points(force.cell_points())
     , bond_stress(families.n_owned())
-    , moduli(families.n_owned())
+    , states(families.n_owned())
+    , modulus_of(families.n_owned())
   {
     force.evaluate();
     of_bonds = bonds->linearise();
     deformations.resize(dim * families.n_local(), NodeRecord{});
+    // That of all points of a cell; null where they have each their own.
+    const auto constant_modulus = [&](const LocalIndex i) {
+      const auto *modulus = force.law_at(i, 0).constant_modulus();
+      for (unsigned int p = 1; p < CellPoints<dim>::n; ++p)
+        if (force.law_at(i, p).constant_modulus() != modulus)
+          modulus = nullptr;
+      return modulus;
+    };
+    std::map<const dealii::SymmetricTensor<4, dim> *, std::size_t> constant;
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      if (const auto *modulus = constant_modulus(i);
+          modulus != nullptr && constant.emplace(modulus, moduli.size()).second)
+        moduli.push_back(pack(*modulus));
+    n_constant = moduli.size();
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
         add_columns<dim>(dealii::unit_symmetric_tensor<dim>(), deformations.data() + dim * i);
         add_columns(to_tensor<dim>(moments->gradient(i)), deformations.data() + dim * i);
-        bond_stress[i] = bonds->stress(i);
+        bond_stress[i]   = bonds->stress(i);
+        const auto known = constant.find(constant_modulus(i));
+        modulus_of[i]    = known != constant.end() ? known->second : moduli.size();
         points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-          moduli[i][p] = pack(force.law_at(i, p).tangent(gradient));
+          const auto law   = force.law_at(i, p);
+          Point     &point = states[i][p];
+          const auto unit  = dealii::unit_symmetric_tensor<dim>();
+          const auto F     = gradient + dealii::Tensor<2, dim>(unit);
+          // The inverse is not asked for where S follows from the strain: a cell may be flat.
+          const auto S      = known != constant.end() ?
+                                *known->first * (0.5 * (symmetrize(transpose(F) * F) - unit)) :
+                                symmetrize(invert(F) * law.stress(gradient));
+          point.deformation = F;
+          for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
+            point.stress[q] = S[Symmetric::axes(q).first][Symmetric::axes(q).second];
+          if (known == constant.end())
+            moduli.push_back(pack(law, gradient));
         });
       }
     std::vector<double> buffer;
@@ -33,47 +64,97 @@ namespace perideal
   }
 
   template <int dim>
-  typename DeformedCells<dim>::Moduli DeformedCells<dim>::pack(const dealii::Tensor<4, dim> &tangent)
+  typename DeformedCells<dim>::Modulus
+  DeformedCells<dim>::pack(const dealii::SymmetricTensor<4, dim> &modulus)
   {
-    Moduli result;
-    auto   next = result.begin();
-    for (unsigned int r = 0; r < n_entries; ++r)
+    Modulus result;
+    auto    next = result.begin();
+    for (unsigned int r = 0; r < Symmetric::n_pairs; ++r)
       for (unsigned int c = 0; c <= r; ++c)
-        *next++ = tangent[r / dim][r % dim][c / dim][c % dim];
+        {
+          const auto [a, b] = Symmetric::axes(r);
+          const auto [k, l] = Symmetric::axes(c);
+          *next++           = modulus[a][b][k][l];
+        }
     return result;
   }
 
   template <int dim>
-  dealii::Tensor<2, dim> DeformedCells<dim>::multiply(const Moduli                 &moduli,
-                                                      const dealii::Tensor<2, dim> &gradient)
+  typename DeformedCells<dim>::Modulus DeformedCells<dim>::pack(const HyperelasticLaw<dim>   &law,
+                                                                const dealii::Tensor<2, dim> &gradient)
   {
-    std::array<double, n_entries> from, to = {};
-    for (unsigned int r = 0; r < n_entries; ++r)
-      from[r] = gradient[r / dim][r % dim];
-    auto next = moduli.begin();
-    for (unsigned int r = 0; r < n_entries; ++r)
+    // dS/dE = F^-1 (dP/dF - I S) F^-T on the first index of each pair.
+    const dealii::Tensor<2, dim> inverse =
+      invert(gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()));
+    const dealii::Tensor<2, dim> S = inverse * law.stress(gradient);
+    dealii::Tensor<4, dim>       A = law.tangent(gradient);
+    for (int i = 0; i < dim; ++i)
+      for (int J = 0; J < dim; ++J)
+        for (int L = 0; L < dim; ++L)
+          A[i][J][i][L] -= S[J][L];
+    dealii::SymmetricTensor<4, dim> modulus;
+    for (int I = 0; I < dim; ++I)
+      for (int J = I; J < dim; ++J)
+        for (int K = 0; K < dim; ++K)
+          for (int L = K; L < dim; ++L)
+            {
+              double sum = 0;
+              for (int i = 0; i < dim; ++i)
+                for (int k = 0; k < dim; ++k)
+                  sum += inverse[I][i] * A[i][J][k][L] * inverse[K][k];
+              modulus[I][J][K][L] = sum;
+            }
+    return pack(modulus);
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> DeformedCells<dim>::change_of_stress(const LocalIndex              i,
+                                                              const unsigned int            p,
+                                                              const dealii::Tensor<2, dim> &gradient) const
+  {
+    const Point                  &point  = states[i][p];
+    const dealii::Tensor<2, dim> &F      = point.deformation;
+    const std::size_t             number = modulus_of[i] + (modulus_of[i] < n_constant ? 0 : p);
+    const double                 *entry  = moduli[number].data();
+    Pairs                         strain, stress = {};
+    for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
       {
-        for (unsigned int c = 0; c < r; ++c, ++next)
+        const auto [a, b] = Symmetric::axes(q);
+        double sum        = 0;
+        for (int k = 0; k < dim; ++k)
+          sum += a == b ? F[k][a] * gradient[k][a] : F[k][a] * gradient[k][b] + F[k][b] * gradient[k][a];
+        strain[q] = sum;
+      }
+    for (unsigned int r = 0; r < Symmetric::n_pairs; ++r)
+      {
+        for (unsigned int c = 0; c < r; ++c, ++entry)
           {
-            to[r] += *next * from[c];
-            to[c] += *next * from[r];
+            stress[r] += *entry * strain[c];
+            stress[c] += *entry * strain[r];
           }
-        to[r] += *next++ * from[r];
+        stress[r] += *entry++ * strain[r];
       }
     dealii::Tensor<2, dim> result;
-    for (unsigned int r = 0; r < n_entries; ++r)
-      result[r / dim][r % dim] = to[r];
+    for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
+      {
+        const auto [a, b] = Symmetric::axes(q);
+        for (int k = 0; k < dim; ++k)
+          {
+            result[k][b] += F[k][a] * stress[q] + gradient[k][a] * point.stress[q];
+            if (a != b)
+              result[k][a] += F[k][b] * stress[q] + gradient[k][b] * point.stress[q];
+          }
+      }
     return result;
   }
 
   template <int dim>
   void DeformedCells<dim>::sum_over_bonds() const
   {
-    using Symmetric = SymmetricPairs<dim>;
     for (LocalIndex i = 0; i < moments->n_owned(); ++i)
       {
-        const auto                change = transpose(deformation(i)) * to_tensor<dim>(moments->gradient(i));
-        typename Symmetric::Pairs strain;
+        const auto change = transpose(deformation(i)) * to_tensor<dim>(moments->gradient(i));
+        Pairs      strain;
         for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
           {
             const auto [a, b] = Symmetric::axes(p);
@@ -92,7 +173,7 @@ namespace perideal
         const auto change = to_tensor<dim>(moments->gradient(i));
         points->turn_into_stress(
           *moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-            return multiply(moduli[i][p], gradient);
+            return change_of_stress(i, p, gradient);
           });
         add_columns<dim>(deformation(i) * bonds->stress(i) + change * bond_stress[i], moments->gradient(i));
         moments->force(i) = bonds->force(i);
@@ -121,7 +202,7 @@ namespace perideal
         {
           dealii::Tensor<2, dim> gradient;
           gradient[b]       = at_point(m, b, p);
-          const auto stress = points->weight(i) * multiply(moduli[i][p], gradient);
+          const auto stress = points->weight(i) * change_of_stress(i, p, gradient);
           for (unsigned int a = 0; a < dim; ++a)
             result[a][b] += stress[a] * at_point(k, a, p);
         }
@@ -142,7 +223,8 @@ namespace perideal
   template <int dim>
   std::size_t DeformedCells<dim>::memory_consumption() const
   {
-    return moduli.size() * sizeof(moduli[0]) + bond_stress.size() * sizeof(bond_stress[0]) +
+    return states.size() * sizeof(states[0]) + moduli.size() * sizeof(moduli[0]) +
+           modulus_of.size() * sizeof(std::size_t) + bond_stress.size() * sizeof(bond_stress[0]) +
            (deformations.size() + of_bonds.position.size()) * sizeof(NodeRecord) +
            of_bonds.tension.size() * sizeof(double);
   }

@@ -17,6 +17,10 @@ namespace perideal
    * and S the derivative of the bonds' energy with respect to its Green's strain,
    *
    *     dE = sym(F^T dG),   d(dU/dG) = sum_p V_p dP_p + F dS + dG S.
+   *
+   * Of the law it keeps dS/dE, and not dP/dF, of which two thirds are geometry:
+   *
+   *     dP_p = F_p (dS/dE : sym(F_p^T dF_p)) + dF_p S_p.
    */
   template <int dim>
   class DeformedCells
@@ -53,20 +57,36 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
-    /// dP/dF as a symmetric matrix, its lower triangle by rows [Pa].
-    static constexpr unsigned int n_entries = dim * dim;
-    using Moduli                            = std::array<double, n_entries *(n_entries + 1) / 2>;
+    using Symmetric = SymmetricPairs<dim>;
+    using Pairs     = typename Symmetric::Pairs;
+    /// dS/dE as a symmetric matrix on strain pairs, its lower triangle by rows [Pa].
+    using Modulus = std::array<double, Symmetric::n_pairs *(Symmetric::n_pairs + 1) / 2>;
+    /// F and S [Pa] at a point of a cell.
+    struct Point
+    {
+      dealii::Tensor<2, dim> deformation;
+      Pairs                  stress;
+    };
 
-    static Moduli                 pack(const dealii::Tensor<4, dim> &tangent);
-    static dealii::Tensor<2, dim> multiply(const Moduli &moduli, const dealii::Tensor<2, dim> &gradient);
+    /// The modulus of a law at a point.
+    static Modulus pack(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &gradient);
+    static Modulus pack(const dealii::SymmetricTensor<4, dim> &modulus);
+    /// dP at a point of a cell under the change of the gradient there.
+    dealii::Tensor<2, dim>
+    change_of_stress(const LocalIndex i, const unsigned int p, const dealii::Tensor<2, dim> &gradient) const;
 
-    std::shared_ptr<const GradientMoments<dim>>         moments;
-    std::shared_ptr<ConsistentBonds<dim>>               bonds;
-    std::shared_ptr<const CellPoints<dim>>              points;
-    typename ConsistentBonds<dim>::Linearisation        of_bonds;
-    dealii::AlignedVector<NodeRecord>                   deformations;
-    std::vector<dealii::SymmetricTensor<2, dim>>        bond_stress;
-    std::vector<std::array<Moduli, CellPoints<dim>::n>> moduli;
+    std::shared_ptr<const GradientMoments<dim>>        moments;
+    std::shared_ptr<ConsistentBonds<dim>>              bonds;
+    std::shared_ptr<const CellPoints<dim>>             points;
+    typename ConsistentBonds<dim>::Linearisation       of_bonds;
+    dealii::AlignedVector<NodeRecord>                  deformations;
+    std::vector<dealii::SymmetricTensor<2, dim>>       bond_stress;
+    std::vector<std::array<Point, CellPoints<dim>::n>> states;
+    /// The moduli that are the same at all points of a material's cells, then those of the points of others.
+    std::vector<Modulus> moduli;
+    std::size_t          n_constant = 0;
+    /// By owned node, that of the first point.
+    std::vector<std::size_t> modulus_of;
   };
 } // namespace perideal
 
