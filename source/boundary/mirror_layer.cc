@@ -30,7 +30,7 @@ namespace perideal
 
   template <int dim>
   MirrorLayer<dim>::MirrorLayer(const NodeCloud<dim> &real)
-    : all(real)
+    : real_nodes(real)
     , n_real_nodes(real.size())
   {
   }
@@ -42,6 +42,7 @@ namespace perideal
                                 const Loads<dim>                     &loads)
     : MirrorLayer(real)
   {
+    all = real;
     // All conditions of a boundary together make one mirror.
     std::map<dealii::types::boundary_id, std::array<int, dim>> condition_of;
     for (unsigned int k = 0; k < loads.conditions.size(); ++k)
@@ -71,7 +72,7 @@ namespace perideal
         planes.push_back(plane);
         add_images(planes.back(), planes.size() - 1);
       }
-    all.number();
+    all->number();
   }
 
   template <int dim>
@@ -106,14 +107,14 @@ namespace perideal
                 plane.upper[d] = std::max(plane.upper[d], vertex[d]);
               }
         }
-    area = sum(area, all.communicator);
+    area = sum(area, all->communicator);
     for (int d = 0; d < dim; ++d)
       {
-        plane.lower[d] = min(plane.lower[d], all.communicator);
-        plane.upper[d] = max(plane.upper[d], all.communicator);
+        plane.lower[d] = min(plane.lower[d], all->communicator);
+        plane.upper[d] = max(plane.upper[d], all->communicator);
       }
-    plane.point = dealii::Point<dim>(sum(centre, all.communicator) / area);
-    normal      = sum(normal, all.communicator);
+    plane.point = dealii::Point<dim>(sum(centre, all->communicator) / area);
+    normal      = sum(normal, all->communicator);
     // The faces of a closed curve have normals that cancel.
     plane.normal = normal / std::max(normal.norm(), 1e-300);
 
@@ -123,7 +124,7 @@ namespace perideal
       if (face.boundary == boundary)
         for (const auto &vertex : face.vertices)
           distance = std::max(distance, std::abs((vertex - plane.point) * plane.normal));
-    if (max(distance, all.communicator) > plane_tolerance * size)
+    if (max(distance, all->communicator) > plane_tolerance * size)
       throw InputError("the mirrored layer needs a plane boundary, and \"" + mesh.boundary_name(boundary) +
                        "\" is curved or has several sides")
         .parameter("Boundary conditions/Displacement treatment")
@@ -138,22 +139,22 @@ namespace perideal
     // Families of real nodes reach one horizon behind the plane, and the
     // families of the nodes there, whose forces count too, another one.
     double reach = 0;
-    for (LocalIndex i = 0; i < all.size(); ++i)
+    for (LocalIndex i = 0; i < all->size(); ++i)
       {
         // Horizons are spheres here.
-        const double reach_of_node = all.reach(i)[0];
-        if (std::abs((all.position[i] - plane.point) * plane.normal) <= reach_of_node)
+        const double reach_of_node = all->reach(i)[0];
+        if (std::abs((all->position[i] - plane.point) * plane.normal) <= reach_of_node)
           reach = std::max(reach, reach_of_node);
       }
-    const double depth = 2. * dealii::Utilities::MPI::max(reach, all.communicator);
+    const double depth = 2. * dealii::Utilities::MPI::max(reach, all->communicator);
 
-    const LocalIndex n_before = all.size();
+    const LocalIndex n_before = all->size();
     for (LocalIndex i = 0; i < n_before; ++i)
       {
-        const double distance = (plane.point - all.position[i]) * plane.normal;
+        const double distance = (plane.point - all->position[i]) * plane.normal;
         if (distance <= 0 || distance > depth)
           continue;
-        const dealii::Point<dim> foot   = all.position[i] + distance * plane.normal;
+        const dealii::Point<dim> foot   = all->position[i] + distance * plane.normal;
         bool                     inside = true;
         for (int d = 0; d < dim; ++d)
           // Images of images stand beside the boundary, one depth away at most.
@@ -176,15 +177,15 @@ namespace perideal
                                                                        images[i - n_real_nodes].condition[d];
           }
         images.push_back(image);
-        all.position.push_back(all.position[i] + 2. * distance * plane.normal);
-        all.volume.push_back(all.volume[i]);
-        all.spacing.push_back(all.spacing[i]);
-        if (!all.finest.empty())
-          all.finest.push_back(all.finest[i]);
-        if (!all.cell_radius.empty())
-          all.cell_radius.push_back(all.cell_radius[i]);
-        all.horizon.push_back(all.horizon[i]);
-        all.material.push_back(all.material[i]);
+        all->position.push_back(all->position[i] + 2. * distance * plane.normal);
+        all->volume.push_back(all->volume[i]);
+        all->spacing.push_back(all->spacing[i]);
+        if (!all->finest.empty())
+          all->finest.push_back(all->finest[i]);
+        if (!all->cell_radius.empty())
+          all->cell_radius.push_back(all->cell_radius[i]);
+        all->horizon.push_back(all->horizon[i]);
+        all->material.push_back(all->material[i]);
       }
   }
 

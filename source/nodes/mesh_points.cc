@@ -244,9 +244,9 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<CornerValues<dim>> MeshPoints<dim>::mean(const std::vector<CornerValues<dim>> &values) const
+  std::vector<CornerValues<dim>> MeshPoints<dim>::mean(std::vector<CornerValues<dim>> values) const
   {
-    std::vector<CornerValues<dim>> result(cells->n_owned()), local = cells->with_ghosts(values);
+    std::vector<CornerValues<dim>> result(cells->n_owned()), local = cells->with_ghosts(std::move(values));
     const auto                     set = [&](const Group &group, const dealii::Tensor<1, dim> &value) {
       for (const Corner &corner : group.corners)
         if (corner.node < cells->n_owned())

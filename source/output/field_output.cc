@@ -70,10 +70,10 @@ namespace perideal
   }
 
   template <int dim>
-  void FieldOutput<dim>::add_at_points(const std::string &name, const std::vector<CornerValues<dim>> &values)
+  void FieldOutput<dim>::add_at_points(const std::string &name, std::vector<CornerValues<dim>> values)
   {
     AssertDimension(values.size(), node_of_cell.size());
-    at_points.emplace_back(name, values);
+    at_points.emplace_back(name, std::move(values));
   }
 
   template <int dim>

@@ -127,7 +127,7 @@ namespace perideal
                 result[i][v] += moved[v];
             }
       }
-    return points.mean(result);
+    return points.mean(std::move(result));
   }
 
   PERIDEAL_INSTANTIATE(make_mesh_points)

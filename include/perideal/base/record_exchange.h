@@ -12,15 +12,13 @@
 
 namespace perideal
 {
-  /// Copies records of nodes to the ranks that have them as ghosts, without a vector of their own: the
-  /// records of ghosts stand behind those of the layout's owned ones. Collective.
-  /// @param layout of four numbers a record
+  /// Copies numbers to the ranks that have them as ghosts, without a vector of their own: those of ghosts
+  /// stand behind the layout's owned ones. Collective.
   inline void update_ghosts(const dealii::Utilities::MPI::Partitioner &layout,
-                            dealii::AlignedVector<NodeRecord>         &records,
+                            double *const                              all,
                             std::vector<double>                       &buffer)
   {
-    const unsigned int n   = layout.locally_owned_size();
-    double            *all = records.data()->value;
+    const unsigned int n = layout.locally_owned_size();
     buffer.resize(layout.n_import_indices());
     std::vector<MPI_Request> requests;
     layout.export_to_ghosted_array_start<double>(0,
@@ -30,6 +28,15 @@ namespace perideal
                                                  requests);
     layout.export_to_ghosted_array_finish<double>(
       dealii::ArrayView<double>(all + n, layout.n_ghost_indices()), requests);
+  }
+
+  /// The same with records of nodes.
+  /// @param layout of four numbers a record
+  inline void update_ghosts(const dealii::Utilities::MPI::Partitioner &layout,
+                            dealii::AlignedVector<NodeRecord>         &records,
+                            std::vector<double>                       &buffer)
+  {
+    update_ghosts(layout, records.data()->value, buffer);
   }
 
   /// Adds the records of ghosts to those of their owners. Collective.

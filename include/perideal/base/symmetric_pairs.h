@@ -32,6 +32,15 @@ namespace perideal
       return k < dim ? std::make_pair(k, k) : std::make_pair(k - dim, (k - dim + 1) % dim);
     }
 
+    /// The pair that stands for two axes.
+    static constexpr unsigned int number_of(const unsigned int a, const unsigned int b)
+    {
+      unsigned int k = 0;
+      while (!(axes(k).first == a && axes(k).second == b) && !(axes(k).first == b && axes(k).second == a))
+        ++k;
+      return k;
+    }
+
     template <typename Record>
     static auto &pair(Record &record, const unsigned int k)
     {

@@ -5,6 +5,7 @@
 #include <perideal/boundary/boundary_faces.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace perideal
@@ -24,7 +25,7 @@ namespace perideal
   class MirrorLayer
   {
   public:
-    /// No fictitious nodes: nodes() is a copy of the real ones.
+    /// No fictitious nodes: nodes() are the real ones, which must outlive this object.
     explicit MirrorLayer(const NodeCloud<dim> &real);
 
     /// @throws InputError when a boundary with prescribed displacement is not
@@ -35,9 +36,9 @@ namespace perideal
                 const Loads<dim>                     &loads);
 
     /// Real nodes first, then the fictitious ones of this rank.
-    const NodeCloud<dim> &nodes() const { return all; }
+    const NodeCloud<dim> &nodes() const { return all ? *all : real_nodes; }
     LocalIndex            n_real() const { return n_real_nodes; }
-    LocalIndex            n_fictitious() const { return all.size() - n_real_nodes; }
+    LocalIndex            n_fictitious() const { return nodes().size() - n_real_nodes; }
 
     /// False when the images break the symmetry of a symmetric operator: the
     /// prescribed components of a plane are neither the normal one alone nor
@@ -86,11 +87,13 @@ namespace perideal
                      const dealii::types::boundary_id      boundary) const;
     void  add_images(const Plane &plane, const unsigned int plane_number);
 
-    NodeCloud<dim>     all;
-    LocalIndex         n_real_nodes;
-    std::vector<Image> images;
-    std::vector<Plane> planes;
-    bool               symmetric = true;
+    const NodeCloud<dim> &real_nodes;
+    /// With the fictitious ones, if there may be any.
+    std::optional<NodeCloud<dim>> all;
+    LocalIndex                    n_real_nodes;
+    std::vector<Image>            images;
+    std::vector<Plane>            planes;
+    bool                          symmetric = true;
   };
 } // namespace perideal
 

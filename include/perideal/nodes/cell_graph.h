@@ -2,6 +2,7 @@
 #ifndef perideal_nodes_cell_graph_h
 #define perideal_nodes_cell_graph_h
 
+#include <perideal/base/record_exchange.h>
 #include <perideal/mesh/mesh.h>
 #include <perideal/nodes/nodes.h>
 
@@ -72,7 +73,7 @@ namespace perideal
     /// The values of all local nodes from those of the owned ones, for types made of
     /// doubles such as tensors. Collective.
     template <typename Value>
-    std::vector<Value> with_ghosts(const std::vector<Value> &owned) const;
+    std::vector<Value> with_ghosts(std::vector<Value> owned) const;
 
     /// Adds what the ranks have for each other's nodes: values of local nodes in,
     /// those of owned ones out. Collective.
@@ -121,22 +122,14 @@ namespace perideal
 
   template <int dim>
   template <typename Value>
-  std::vector<Value> CellGraph<dim>::with_ghosts(const std::vector<Value> &owned) const
+  std::vector<Value> CellGraph<dim>::with_ghosts(std::vector<Value> owned) const
   {
     constexpr unsigned int n = sizeof(Value) / sizeof(double);
     AssertDimension(owned.size(), n_owned_nodes);
-    std::vector<Value> result(owned);
-    result.resize(n_local());
-    NodalVector field(make_partitioner(n));
-    std::copy_n(reinterpret_cast<const double *>(owned.data()), n * owned.size(), field.begin());
-    field.update_ghost_values();
-    for (LocalIndex i = n_owned_nodes; i < n_local(); ++i)
-      {
-        double *value = reinterpret_cast<double *>(&result[i]);
-        for (unsigned int c = 0; c < n; ++c)
-          value[c] = field(n * global_number(i) + c);
-      }
-    return result;
+    owned.resize(n_local());
+    std::vector<double> buffer;
+    update_ghosts(*make_partitioner(n), reinterpret_cast<double *>(owned.data()), buffer);
+    return owned;
   }
 
   template <int dim>

@@ -73,7 +73,7 @@ namespace perideal
     std::vector<LocalIndex> cells_around(const LocalIndex node) const;
 
     /// Returns the mean of the cells' values at each point, by owned node. Collective.
-    std::vector<CornerValues<dim>> mean(const std::vector<CornerValues<dim>> &values) const;
+    std::vector<CornerValues<dim>> mean(std::vector<CornerValues<dim>> values) const;
 
     const CellGraph<dim> &graph() const { return *cells; }
 

@@ -50,7 +50,7 @@ namespace perideal
     MeshPoints<dim> *points() override { return mesh_points.get(); }
 
     /// As FieldSink says, into the next write().
-    void add_at_points(const std::string &name, const std::vector<CornerValues<dim>> &values) override;
+    void add_at_points(const std::string &name, std::vector<CornerValues<dim>> values) override;
     void add_vector(const std::string &name, const std::vector<dealii::Tensor<1, dim>> &values) override;
     void add_scalar(const std::string &name, const std::vector<double> &values) override;
 

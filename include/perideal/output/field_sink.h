@@ -24,7 +24,7 @@ namespace perideal
 
     /// Takes a vector field that has one value at each of these points: those at the corners of the owned
     /// cells, by node. The name is of letters, digits and underscores.
-    virtual void add_at_points(const std::string &, const std::vector<CornerValues<dim>> &) {}
+    virtual void add_at_points(const std::string &, std::vector<CornerValues<dim>>) {}
 
     /// Takes a vector field, one value for each of this rank's nodes.
     virtual void add_vector(const std::string &name, const std::vector<dealii::Tensor<1, dim>> &values) = 0;

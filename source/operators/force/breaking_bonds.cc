@@ -45,10 +45,11 @@ namespace perideal
   template <int dim>
   BreakingBonds<dim>::BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
                                     const BondList                             &bonds,
-                                    const bool                                  has_sums)
+                                    const bool                                  has_sums,
+                                    const bool                                  has_lengths)
     : families(families)
     , bonds(bonds)
-    , rest_length(bonds.n_slots(), 0.)
+    , rest_length(has_lengths ? bonds.n_slots() : 0, 0.)
     , regions(*families, bonds, has_sums)
     , volumes(families, bonds)
   {
@@ -59,7 +60,8 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       for (int d = 0; d < dim; ++d)
         position[i].value[d] = families->position[i][d];
-    measure_lengths(bonds, position.data(), rest_length);
+    if (has_lengths)
+      measure_lengths(bonds, position.data(), rest_length);
   }
 
   template <int dim>

@@ -11,7 +11,7 @@ namespace perideal
                                         const std::shared_ptr<const GradientMoments<dim>> &moments,
                                         const std::shared_ptr<ConsistentBonds<dim>>       &bonds,
                                         const LawsByMaterial<dim>                         &laws)
-    : BreakingBonds<dim>(families, bonds->list(), false)
+    : BreakingBonds<dim>(families, bonds->list(), false, false)
     , moments(moments)
     , bonds(bonds)
     , points(std::make_shared<const CellPoints<dim>>(moments->cell_polynomials(), bonds->shares()))

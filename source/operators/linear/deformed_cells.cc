@@ -49,10 +49,11 @@ namespace perideal
           const auto unit  = dealii::unit_symmetric_tensor<dim>();
           const auto F     = gradient + dealii::Tensor<2, dim>(unit);
           // The inverse is not asked for where S follows from the strain: a cell may be flat.
-          const auto S      = known != constant.end() ?
-                                *known->first * (0.5 * (symmetrize(transpose(F) * F) - unit)) :
-                                symmetrize(invert(F) * law.stress(gradient));
-          point.deformation = F;
+          const auto S = known != constant.end() ?
+                           *known->first * (0.5 * (symmetrize(transpose(F) * F) - unit)) :
+                           symmetrize(invert(F) * law.stress(gradient));
+          for (unsigned int e = 0; e < dim * dim; ++e)
+            point.gradient[e] = gradient[e / dim][e % dim];
           for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
             point.stress[q] = S[Symmetric::axes(q).first][Symmetric::axes(q).second];
           if (known == constant.end())
@@ -112,11 +113,14 @@ namespace perideal
                                                               const unsigned int            p,
                                                               const dealii::Tensor<2, dim> &gradient) const
   {
-    const Point                  &point  = states[i][p];
-    const dealii::Tensor<2, dim> &F      = point.deformation;
-    const std::size_t             number = modulus_of[i] + (modulus_of[i] < n_constant ? 0 : p);
-    const double                 *entry  = moduli[number].data();
-    Pairs                         strain, stress = {};
+    const Point           &point = states[i][p];
+    dealii::Tensor<2, dim> F;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        F[k][l] = (k == l ? 1. : 0.) + point.gradient[dim * k + l];
+    const std::size_t number = modulus_of[i] + (modulus_of[i] < n_constant ? 0 : p);
+    const double     *entry  = moduli[number].data();
+    Pairs             strain, stress = {};
     for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
       {
         const auto [a, b] = Symmetric::axes(q);

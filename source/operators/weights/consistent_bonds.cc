@@ -148,8 +148,6 @@ namespace perideal
             sum_of_each(pull, part[0], part[1], part[2], part[3]);
             load(factor, stiffness_of.data() + k);
             pull *= factor;
-            if (kinematics == Kinematics::finite)
-              __builtin_memcpy(work.tension.data() + k, &pull, sizeof(Lanes));
             for (unsigned int l = 0; l < n_lanes; ++l)
               {
                 Lanes force = pull[l] * direction[l];
@@ -182,7 +180,6 @@ namespace perideal
   template <int dim>
   void ConsistentBonds<dim>::sum_finite()
   {
-    work.tension.resize(bonds.n_slots());
     update_ghosts();
     sum<Kinematics::finite>(nullptr);
   }
@@ -191,7 +188,11 @@ namespace perideal
   typename ConsistentBonds<dim>::Linearisation ConsistentBonds<dim>::linearise() const
   {
     Linearisation result;
-    result.tension = work.tension;
+    result.tension.assign(bonds.n_slots(), 0.);
+    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+      for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; ++k)
+        if (stiffness_of[k] != 0.)
+          result.tension[k] = stiffness_of[k] * residual(i, bonds.neighbour[k], true);
     result.position.resize(position.size());
     for (std::size_t i = 0; i < position.size(); ++i)
       lanes(result.position[i]) = lanes(position[i]) + lanes(work.states[n_records * i]);
@@ -206,6 +207,24 @@ namespace perideal
   }
 
   template <int dim>
+  double ConsistentBonds<dim>::residual(const LocalIndex i, const LocalIndex j, const bool is_finite) const
+  {
+    const NodeRecord *near = work.states.data() + n_records * i, *far = work.states.data() + n_records * j;
+    const NodeRecord *near_strain = near + 1, *far_strain = far + 1;
+    const auto        along  = bond(i, j);
+    const Pairs       square = Symmetric::products(along);
+    double            r      = 0;
+    for (int d = 0; d < dim; ++d)
+      {
+        const double moved = far->value[d] - near->value[d];
+        r += (along[d] + (is_finite ? 0.5 * moved : 0.)) * moved;
+      }
+    for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
+      r -= 0.5 * square[p] * (Symmetric::pair(near_strain, p) + Symmetric::pair(far_strain, p));
+    return r;
+  }
+
+  template <int dim>
   double ConsistentBonds<dim>::energy(const bool is_finite) const
   {
     double result = 0;
@@ -214,20 +233,8 @@ namespace perideal
         {
           if (stiffness_of[k] == 0.)
             continue;
-          const LocalIndex  j           = bonds.neighbour[k];
-          const NodeRecord *near        = work.states.data() + n_records * i;
-          const NodeRecord *far         = work.states.data() + n_records * j;
-          const NodeRecord *near_strain = near + 1, *far_strain = far + 1;
-          const auto        along  = bond(i, j);
-          const Pairs       square = Symmetric::products(along);
-          double            r      = 0;
-          for (int d = 0; d < dim; ++d)
-            {
-              const double moved = far->value[d] - near->value[d];
-              r += (along[d] + (is_finite ? 0.5 * moved : 0.)) * moved;
-            }
-          for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
-            r -= 0.5 * square[p] * (Symmetric::pair(near_strain, p) + Symmetric::pair(far_strain, p));
+          const LocalIndex j = bonds.neighbour[k];
+          const double     r = residual(i, j, is_finite);
           result += (j < families->n_owned() ? 0.5 : 0.25) * stiffness_of[k] * r * r;
         }
     return result;
@@ -237,7 +244,6 @@ namespace perideal
   std::size_t ConsistentBonds<dim>::memory_consumption() const
   {
     return bonds.memory_consumption() + dealii::MemoryConsumption::memory_consumption(stiffness_of) +
-           dealii::MemoryConsumption::memory_consumption(work.tension) +
            dealii::MemoryConsumption::memory_consumption(whole_stiffness) +
            shares_of_cells->memory_consumption() +
            (position.size() + work.states.size() + work.forces.size() + work.stresses.size()) *

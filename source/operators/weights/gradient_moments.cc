@@ -9,12 +9,57 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 // Set-up of GradientMoments, and what is not called in every application of an operator.
 
 namespace perideal
 {
+  namespace
+  {
+    /// What the loops read of a face of a grid along the axes; no axis where it is none.
+    template <int dim, typename Shape>
+    AlignedFace<dim> align(const Shape &shape)
+    {
+      using M = Monomials<dim>;
+      AlignedFace<dim> result;
+      if (!shape.is_plane)
+        return result;
+      const double    *normal = shape.moments, *moment = shape.moments + dim;
+      constexpr double tolerance = 1e-13;
+      unsigned int     axis      = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) > std::abs(normal[axis]))
+          axis = d;
+      double size = std::abs(shape.offset[0][axis]);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != axis)
+          size = std::max(size, std::sqrt(moment[1 + dim + d] / moment[0]));
+      result.area = normal[axis] * moment[0];
+      std::array<double, M::n> rest;
+      std::copy_n(moment, M::n, rest.begin());
+      rest[0]       = 0.;
+      bool is_found = true;
+      for (unsigned int j = 0; j < dim - 1; ++j)
+        {
+          const unsigned int other = (axis + 1 + j) % dim;
+          result.square[j]         = normal[axis] * moment[1 + dim + other];
+          rest[1 + dim + other]    = 0.;
+          is_found                 = is_found && std::abs(normal[other]) <= tolerance;
+          for (const auto &offset : shape.offset)
+            is_found = is_found && std::abs(offset[other]) <= tolerance * size;
+        }
+      for (unsigned int m = 0; m < M::n; ++m)
+        is_found = is_found && std::abs(rest[m]) <= tolerance * moment[0] * std::pow(size, M::degree(m));
+      for (unsigned int s = 0; s < 2; ++s)
+        result.offset[s] = shape.offset[s][axis];
+      if (is_found)
+        result.axis = axis;
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   GradientMoments<dim>::GradientMoments(const std::shared_ptr<const CellPolynomials<dim>> &polynomials,
                                         const std::shared_ptr<const FaceMoments<dim>>     &face_moments,
@@ -119,7 +164,8 @@ namespace perideal
         std::size_t &place = equal.is_looking() ? equal.place_of(record) : own;
         if (place == EqualRecords::none)
           {
-            place = list.shapes.size();
+            place         = list.shapes.size();
+            shape.aligned = align<dim>(shape);
             list.shapes.push_back(shape);
           }
         face.shape = static_cast<std::uint32_t>(place);

@@ -12,6 +12,7 @@ perideal_room(operators/weights
     correspondence_rows_matrix.cc
     family_weights.cc
     gradient_moments.cc
+    gradient_moments_faces.cc
     gradient_moments_loops.cc
     gradient_rows.cc
     gradient_rows_exchange.cc

@@ -82,9 +82,11 @@ namespace perideal
 
   protected:
     /// @param has_sums whether forces need sums over families first
+    /// @param has_lengths whether anyone asks for lengths of bonds: not where none breaks
     BreakingBonds(const std::shared_ptr<const Families<dim>> &families,
                   const BondList                             &bonds,
-                  const bool                                  has_sums);
+                  const bool                                  has_sums,
+                  const bool                                  has_lengths = true);
 
     /// False of padding, and of bonds that were cut or broke.
     virtual bool carries_force(const BondIndex slot) const = 0;

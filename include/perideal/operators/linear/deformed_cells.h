@@ -61,11 +61,12 @@ namespace perideal
     using Pairs     = typename Symmetric::Pairs;
     /// dS/dE as a symmetric matrix on strain pairs, its lower triangle by rows [Pa].
     using Modulus = std::array<double, Symmetric::n_pairs *(Symmetric::n_pairs + 1) / 2>;
-    /// F and S [Pa] at a point of a cell.
+    /// F - I, row by row, and S [Pa] at a point of a cell, in single precision: what that loses is far below
+    /// the strain's share of the tangent.
     struct Point
     {
-      dealii::Tensor<2, dim> deformation;
-      Pairs                  stress;
+      std::array<float, dim * dim>          gradient;
+      std::array<float, Symmetric::n_pairs> stress;
     };
 
     /// The modulus of a law at a point.

@@ -72,7 +72,7 @@ namespace perideal
       /// Of local nodes in the deformed body [m].
       dealii::AlignedVector<NodeRecord> position;
       /// b_ij r_ij by slot [N/m].
-      std::vector<double> tension;
+      std::vector<float> tension;
     };
     /// The linearisation at the states of the last sum_finite().
     Linearisation linearise() const;
@@ -153,15 +153,18 @@ namespace perideal
     template <Kinematics kinematics>
     void   sum(const Linearisation *at);
     double energy(const bool is_finite) const;
+    /// r of a bond of an owned node at the states set [m^2].
+    double residual(const LocalIndex i, const LocalIndex j, const bool is_finite) const;
     void weigh(const Consistent<dim> &model, const SolidOf<dim> &solid_of, const BondPredicate<dim> &is_cut);
     void update_ghosts();
 
     std::shared_ptr<const Families<dim>> families;
     BondList                             bonds;
-    std::vector<double>                  stiffness_of;
+    /// By slot; single precision does for what makes cells stable.
+    std::vector<float> stiffness_of;
     /// With the whole stiffnesses, once shares were set.
     std::shared_ptr<CellShares> shares_of_cells = std::make_shared<CellShares>();
-    std::vector<double>         whole_stiffness;
+    std::vector<float>          whole_stiffness;
     /// Centroids of local nodes [m].
     dealii::AlignedVector<NodeRecord>                          position;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_states;
@@ -169,7 +172,7 @@ namespace perideal
     struct Work
     {
       dealii::AlignedVector<NodeRecord> states, forces, stresses;
-      std::vector<double>               tension, buffer;
+      std::vector<double>               buffer;
     };
     Work work;
   };

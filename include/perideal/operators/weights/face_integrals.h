@@ -142,6 +142,71 @@ namespace perideal
           polynomial[m] = sum;
         }
   }
+
+  /**
+   * A rectangular face across an axis a, whose centre lies on the lines through the centroids of both cells
+   * along that axis, as in grids along the axes. Most moments vanish, and a polynomial needs to be known
+   * there as
+   *
+   *     value + sum_j slope_j t_j + square_j t_j^2,   t_j along the other axes.
+   */
+  template <int dim>
+  struct AlignedFace
+  {
+    static constexpr unsigned int none = dim;
+
+    /// The axis; none where the face is not such.
+    unsigned int axis = none;
+    /// Moments of 1 and of the squares t_j^2, times the normal [m^(dim-1)], [m^(dim+1)].
+    double area = 0, square[dim - 1] = {};
+    /// Of the centre from the two centroids along the axis [m].
+    double offset[2] = {};
+  };
+
+  /// Values along an aligned face, or what acts on them, lanes by component.
+  template <int dim>
+  struct AlignedPolynomial
+  {
+    Lanes value = {}, slope[dim - 1] = {}, square[dim - 1] = {};
+  };
+
+  /// Adds share times a polynomial about a centroid.
+  template <int dim, unsigned int axis>
+  PERIDEAL_INLINE void
+  add_along(const NodeRecord *from, const double offset, const double share, AlignedPolynomial<dim> &result)
+  {
+    result.value +=
+      share * (lanes(from[0]) + offset * (lanes(from[1 + axis]) + offset * lanes(from[1 + dim + axis])));
+    for (unsigned int j = 0; j < dim - 1; ++j)
+      {
+        const unsigned int other = (axis + 1 + j) % dim;
+        const unsigned int mixed = SymmetricPairs<dim>::number_of(axis, other);
+        result.slope[j] += share * (lanes(from[1 + other]) + offset * lanes(from[1 + dim + mixed]));
+        result.square[j] += share * lanes(from[1 + dim + other]);
+      }
+  }
+
+  /// The transpose of add_along().
+  template <int dim, unsigned int axis>
+  PERIDEAL_INLINE void add_along_back(const AlignedPolynomial<dim> &from,
+                                      const double                  offset,
+                                      const double                  share,
+                                      NodeRecord                   *result)
+  {
+    const Lanes value = share * from.value;
+    lanes(result[0]) += value;
+    lanes(result[1 + axis]) += offset * value;
+    lanes(result[1 + dim + axis]) += (offset * offset) * value;
+    for (unsigned int j = 0; j < dim - 1; ++j)
+      {
+        const unsigned int other = (axis + 1 + j) % dim;
+        const unsigned int mixed = SymmetricPairs<dim>::number_of(axis, other);
+        const Lanes        slope = share * from.slope[j];
+        lanes(result[1 + other]) += slope;
+        lanes(result[1 + dim + mixed]) += offset * slope;
+        lanes(result[1 + dim + other]) += share * from.square[j];
+      }
+  }
 } // namespace perideal
 
 #endif

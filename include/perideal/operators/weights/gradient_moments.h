@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/boundary/face_values.h>
+#include <perideal/operators/weights/face_integrals.h>
 #include <perideal/operators/weights/polynomial_loads.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 #include <perideal/reconstruction/face_moments.h>
@@ -120,8 +121,9 @@ namespace perideal
       bool   is_plane;
       double share[2];
       /// Of the centre of the face from the centroids [m].
-      double        offset[2][dim];
-      const double *moments;
+      double           offset[2][dim];
+      const double    *moments;
+      AlignedFace<dim> aligned;
     };
     /// A face as the loops read it: cells in the numbers of polynomials.
     struct Face

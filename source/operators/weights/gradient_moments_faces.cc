@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <perideal/base/instantiate.h>
+#include <perideal/base/record_exchange.h>
+#include <perideal/operators/weights/gradient_moments.h>
+
+// The hot loops of GradientMoments over faces, and their transposes.
+
+namespace perideal
+{
+  namespace
+  {
+    /// Faces between the one that is summed and that whose cells are asked for: the second cell of a face
+    /// lies anywhere in memory.
+    constexpr std::size_t n_ahead = 4;
+
+    PERIDEAL_INLINE void prefetch(const NodeRecord *records, const unsigned int n)
+    {
+      for (unsigned int k = 0; k < n; k += 2)
+        __builtin_prefetch(records + k);
+    }
+
+    template <int dim, typename Work>
+    PERIDEAL_INLINE void prefetch_cell(const Work &work, const LocalIndex i)
+    {
+      constexpr unsigned int n = Monomials<dim>::n_coefficients;
+      prefetch(work.polynomial.data() + n * i, n);
+      prefetch(work.gradient.data() + dim * i, dim);
+      prefetch(work.moment.data() + dim * dim * i, dim * dim);
+    }
+
+    /// Adds what an aligned inner face gives to gradients and moments.
+    template <int dim, unsigned int axis, typename Work, typename Face, typename Shape>
+    PERIDEAL_INLINE void
+    sum_over_aligned(Work &work, const LocalIndex n_owned, const Face &face, const Shape &shape)
+    {
+      const AlignedFace<dim> &aligned = shape.aligned;
+      AlignedPolynomial<dim>  polynomial;
+      for (unsigned int side = 0; side < 2; ++side)
+        add_along<dim, axis>(work.polynomial.data() + Monomials<dim>::n_coefficients * face.cell[side],
+                             aligned.offset[side],
+                             shape.share[side],
+                             polynomial);
+      Lanes total = aligned.area * polynomial.value, first[dim - 1];
+      for (unsigned int j = 0; j < dim - 1; ++j)
+        {
+          total += aligned.square[j] * polynomial.square[j];
+          first[j] = aligned.square[j] * polynomial.slope[j];
+        }
+      for (unsigned int side = 0; side < 2; ++side)
+        if (const LocalIndex i = face.cell[side]; i < n_owned)
+          {
+            const double sign = side == 0 ? 1. : -1.;
+            NodeRecord  *h    = work.moment.data() + dim * dim * i + axis;
+            lanes(work.gradient[dim * i + axis]) += sign * total;
+            lanes(h[dim * axis]) += (sign * aligned.offset[side]) * total;
+            for (unsigned int j = 0; j < dim - 1; ++j)
+              lanes(h[dim * ((axis + 1 + j) % dim)]) += sign * first[j];
+          }
+    }
+
+    /// Its transpose: adds what acts on them to what acts on polynomials.
+    template <int dim, unsigned int axis, typename Work, typename Face, typename Shape>
+    PERIDEAL_INLINE void
+    spread_to_aligned(Work &work, const LocalIndex n_owned, const Face &face, const Shape &shape)
+    {
+      const AlignedFace<dim> &aligned = shape.aligned;
+      Lanes                   pull = {}, first[dim - 1] = {};
+      for (unsigned int side = 0; side < 2; ++side)
+        if (const LocalIndex i = face.cell[side]; i < n_owned)
+          {
+            const double      sign = side == 0 ? 1. : -1.;
+            const NodeRecord *h    = work.moment.data() + dim * dim * i + axis;
+            pull +=
+              sign * (lanes(work.gradient[dim * i + axis]) + aligned.offset[side] * lanes(h[dim * axis]));
+            for (unsigned int j = 0; j < dim - 1; ++j)
+              first[j] += sign * lanes(h[dim * ((axis + 1 + j) % dim)]);
+          }
+      AlignedPolynomial<dim> polynomial;
+      polynomial.value = aligned.area * pull;
+      for (unsigned int j = 0; j < dim - 1; ++j)
+        {
+          polynomial.square[j] = aligned.square[j] * pull;
+          polynomial.slope[j]  = aligned.square[j] * first[j];
+        }
+      for (unsigned int side = 0; side < 2; ++side)
+        add_along_back<dim, axis>(polynomial,
+                                  aligned.offset[side],
+                                  shape.share[side],
+                                  work.polynomial.data() + Monomials<dim>::n_coefficients * face.cell[side]);
+    }
+  } // namespace
+
+  template <int dim>
+  Lanes GradientMoments<dim>::prescribed_value(const std::size_t entry, const AtFaces at_faces) const
+  {
+    Lanes       result = {};
+    const auto &from   = prescribed->entries()[entry];
+    for (int d = 0; d < dim; ++d)
+      result[d] = at_faces == AtFaces::nothing ? 0. :
+                  at_faces == AtFaces::values  ? from.value[d] :
+                                                 from.increment[d];
+    return result;
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::sum_over_faces(const AtFaces at_faces) const
+  {
+    std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
+    std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
+    const auto add =
+      [&](const Face &face, const Shape &shape, const unsigned int side, const FaceSums<dim> &sums) {
+        const LocalIndex i = face.cell[side];
+        if (i >= n_owned_cells)
+          return;
+        const double sign = side == 0 ? 1. : -1.;
+        NodeRecord  *g = gradient(i), *h = moment(i);
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            const Lanes value = sign * sums.gradient[l];
+            lanes(g[l]) += value;
+            for (unsigned int k = 0; k < dim; ++k)
+              lanes(h[dim * k + l]) += sign * sums.moment[k][l] + shape.offset[side][k] * value;
+          }
+      };
+    const std::size_t n_inner_faces = face_moments->n_inner_faces();
+    auto              next          = held.begin();
+    for (std::size_t f = 0; f < list.faces.size(); ++f)
+      {
+        if (f + n_ahead < n_inner_faces)
+          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
+        const Face  &face     = list.faces[f];
+        const Shape &shape    = list.shapes[face.shape];
+        const bool   is_inner = f < n_inner_faces;
+        if (is_inner && shape.aligned.axis != AlignedFace<dim>::none)
+          {
+            if (shape.aligned.axis == 0)
+              sum_over_aligned<dim, 0>(work, n_owned_cells, face, shape);
+            else if (shape.aligned.axis == 1)
+              sum_over_aligned<dim, 1>(work, n_owned_cells, face, shape);
+            else
+              sum_over_aligned<dim, dim - 1>(work, n_owned_cells, face, shape);
+            continue;
+          }
+        Lanes         polynomial[n_coefficients] = {};
+        FaceSums<dim> sums;
+        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+          add_shifted<dim>(work.polynomial.data() + n_coefficients * face.cell[side],
+                           shape.offset[side],
+                           shape.share[side],
+                           polynomial);
+        integrate<dim>(shape.moments, shape.is_plane, polynomial, sums);
+        if (!is_inner && next != held.end() && next->first == f)
+          {
+            const Held &of_face = next->second;
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
+                for (unsigned int k = 0; k < dim; ++k)
+                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
+              }
+            const auto &centre = face_moments->faces()[f].centre;
+            for (unsigned int q = 0; at_faces != AtFaces::nothing && q < FaceMoments<dim>::n_points; ++q)
+              {
+                const std::size_t e     = next->second.first_entry + q;
+                const auto       &point = face_moments->boundary_points()[prescribed->entries()[e].point];
+                const Lanes       value = next->second.mask * prescribed_value(e, at_faces);
+                for (unsigned int l = 0; l < dim; ++l)
+                  {
+                    sums.gradient[l] += point.area[l] * value;
+                    for (unsigned int k = 0; k < dim; ++k)
+                      sums.moment[k][l] += ((point.point[k] - centre[k]) * point.area[l]) * value;
+                  }
+              }
+            ++next;
+          }
+        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+          add(face, shape, side, sums);
+      }
+  }
+
+  template <int dim>
+  void GradientMoments<dim>::spread_to_faces() const
+  {
+    std::fill(work.polynomial.begin(), work.polynomial.end(), NodeRecord{});
+    const auto add = [&](const Face &face, const Shape &shape, const unsigned int side, FaceSums<dim> &sums) {
+      const LocalIndex i = face.cell[side];
+      if (i >= n_owned_cells)
+        return;
+      const double      sign = side == 0 ? 1. : -1.;
+      const NodeRecord *g = gradient(i), *h = moment(i);
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          Lanes pull = lanes(g[l]);
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              pull += shape.offset[side][k] * lanes(h[dim * k + l]);
+              sums.moment[k][l] += sign * lanes(h[dim * k + l]);
+            }
+          sums.gradient[l] += sign * pull;
+        }
+    };
+    const std::size_t n_inner_faces = face_moments->n_inner_faces();
+    auto              next          = held.begin();
+    for (std::size_t f = 0; f < list.faces.size(); ++f)
+      {
+        if (f + n_ahead < n_inner_faces)
+          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
+        const Face        &face    = list.faces[f];
+        const Shape       &shape   = list.shapes[face.shape];
+        const unsigned int n_sides = f < n_inner_faces ? 2 : 1;
+        if (n_sides == 2 && shape.aligned.axis != AlignedFace<dim>::none)
+          {
+            if (shape.aligned.axis == 0)
+              spread_to_aligned<dim, 0>(work, n_owned_cells, face, shape);
+            else if (shape.aligned.axis == 1)
+              spread_to_aligned<dim, 1>(work, n_owned_cells, face, shape);
+            else
+              spread_to_aligned<dim, dim - 1>(work, n_owned_cells, face, shape);
+            continue;
+          }
+        FaceSums<dim> sums = {};
+        Lanes         polynomial[n_coefficients];
+        for (unsigned int side = 0; side < n_sides; ++side)
+          add(face, shape, side, sums);
+        if (n_sides == 1 && next != held.end() && next->first == f)
+          {
+            const Held &of_face = next->second;
+            for (unsigned int l = 0; l < dim; ++l)
+              {
+                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
+                for (unsigned int k = 0; k < dim; ++k)
+                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
+              }
+            ++next;
+          }
+        integrate_back<dim>(shape.moments, shape.is_plane, sums, polynomial);
+        for (unsigned int side = 0; side < n_sides; ++side)
+          add_shifted_back<dim>(polynomial,
+                                shape.offset[side],
+                                shape.share[side],
+                                work.polynomial.data() + n_coefficients * face.cell[side]);
+      }
+    add_to_owners(*of_polynomials, work.polynomial, work.temporary);
+  }
+
+  PERIDEAL_INSTANTIATE_CLASS(GradientMoments)
+} // namespace perideal
