@@ -19,16 +19,16 @@ namespace perideal
   namespace
   {
     /// What the loops read of a face of a grid along the axes; no axis where it is none.
+    /// @param rounding what coordinates are off by [m]
     template <int dim, typename Shape>
-    AlignedFace<dim> align(const Shape &shape)
+    AlignedFace<dim> align(const Shape &shape, const double rounding)
     {
       using M = Monomials<dim>;
       AlignedFace<dim> result;
       if (!shape.is_plane)
         return result;
-      const double    *normal = shape.moments, *moment = shape.moments + dim;
-      constexpr double tolerance = 1e-13;
-      unsigned int     axis      = 0;
+      const double *normal = shape.moments, *moment = shape.moments + dim;
+      unsigned int  axis = 0;
       for (unsigned int d = 1; d < dim; ++d)
         if (std::abs(normal[d]) > std::abs(normal[axis]))
           axis = d;
@@ -36,7 +36,8 @@ namespace perideal
       for (unsigned int d = 0; d < dim; ++d)
         if (d != axis)
           size = std::max(size, std::sqrt(moment[1 + dim + d] / moment[0]));
-      result.area = normal[axis] * moment[0];
+      const double tolerance = 1e-13 + rounding / size;
+      result.area            = normal[axis] * moment[0];
       std::array<double, M::n> rest;
       std::copy_n(moment, M::n, rest.begin());
       rest[0]       = 0.;
@@ -165,7 +166,7 @@ namespace perideal
         if (place == EqualRecords::none)
           {
             place         = list.shapes.size();
-            shape.aligned = align<dim>(shape);
+            shape.aligned = align<dim>(shape, rounding);
             list.shapes.push_back(shape);
           }
         face.shape = static_cast<std::uint32_t>(place);
