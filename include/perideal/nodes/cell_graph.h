@@ -127,8 +127,13 @@ namespace perideal
     constexpr unsigned int n = sizeof(Value) / sizeof(double);
     AssertDimension(owned.size(), n_owned_nodes);
     owned.resize(n_local());
+    const auto          layout = make_partitioner(n);
     std::vector<double> buffer;
-    update_ghosts(*make_partitioner(n), reinterpret_cast<double *>(owned.data()), buffer);
+    update_ghosts(*layout, reinterpret_cast<double *>(owned.data()), buffer);
+    // The layout has ghosts in the order of their numbers.
+    const std::vector<Value> received(owned.begin() + n_owned_nodes, owned.end());
+    for (LocalIndex i = n_owned_nodes; i < n_local(); ++i)
+      owned[i] = received[layout->global_to_local(n * global_number(i)) / n - n_owned_nodes];
     return owned;
   }
 
