@@ -71,7 +71,7 @@ namespace perideal
     {
       /// Of local nodes in the deformed body [m].
       dealii::AlignedVector<NodeRecord> position;
-      /// b_ij r_ij by slot [N/m].
+      /// b_ij r_ij by slot [N/m]; single precision does for tangents.
       std::vector<float> tension;
     };
     /// The linearisation at the states of the last sum_finite().
@@ -160,11 +160,10 @@ namespace perideal
 
     std::shared_ptr<const Families<dim>> families;
     BondList                             bonds;
-    /// By slot; single precision does for what makes cells stable.
-    std::vector<float> stiffness_of;
+    std::vector<double>                  stiffness_of;
     /// With the whole stiffnesses, once shares were set.
     std::shared_ptr<CellShares> shares_of_cells = std::make_shared<CellShares>();
-    std::vector<float>          whole_stiffness;
+    std::vector<double>         whole_stiffness;
     /// Centroids of local nodes [m].
     dealii::AlignedVector<NodeRecord>                          position;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_states;
