@@ -34,8 +34,8 @@ namespace perideal
                                                                is_cut,
                                                                moves ? CellUnknown::value : CellUnknown::mean,
                                                                share_equal);
-    faces       = std::make_shared<const FaceMoments<dim>>(
-      *body.mesh, polynomials->graph(), stiffness, is_cut, share_equal);
+    faces =
+      std::make_shared<const FaceMoments<dim>>(*body.mesh, *polynomials, stiffness, is_cut, share_equal);
   }
 
   template <int dim>

@@ -88,17 +88,18 @@ namespace perideal
   {
   public:
     Builder(FaceMoments                                                   &result,
-            const CellGraph<dim>                                          &graph,
+            const CellPolynomials<dim>                                    &polynomials,
             const double                                                   thickness,
             const std::function<double(const dealii::types::material_id)> &stiffness,
             const BondPredicate<dim>                                      &is_cut,
             const bool                                                     share_equal)
       : result(result)
-      , graph(graph)
+      , graph(polynomials.graph())
+      , centroid(polynomials.centroids())
       , thickness(thickness)
       , stiffness(stiffness)
       , is_cut(is_cut)
-      , rounding(coordinate_rounding(graph.position))
+      , rounding(coordinate_rounding(centroid))
       , equal(share_equal)
     {
     }
@@ -133,7 +134,7 @@ namespace perideal
               auto points = outward_points<dim>(cell, f, thickness);
               for (auto &p : points)
                 p.area *= side == 0 ? 1. : -1.;
-              add(points, {{{nodes[side], none}}, {{1., 0.}}, {}, false, 0});
+              add(points, {{nodes[side], none}}, {{1., 0.}});
             }
     }
 
@@ -145,7 +146,7 @@ namespace perideal
       const auto       points = outward_points<dim>(cell, f, thickness);
       for (const auto &p : points)
         result.points.push_back({node, number, cell->face(f)->boundary_id(), p.point, p.area});
-      add(points, {{{node, none}}, {{1., 0.}}, {}, false, 0});
+      add(points, {{node, none}}, {{1., 0.}});
     }
 
   private:
@@ -171,38 +172,52 @@ namespace perideal
           const double of_i = stiffness(graph.material[i]), of_j = stiffness(graph.material[j]);
           share = {{of_i / (of_i + of_j), of_j / (of_i + of_j)}};
         }
-      add(outward_points<dim>(cell, f, thickness), {{{i, j}}, share, {}, false, 0});
+      add(outward_points<dim>(cell, f, thickness), {{i, j}}, share);
     }
 
-    void add(const FacePoints<dim> &points, Face face)
+    void add(const FacePoints<dim>           &points,
+             const std::array<LocalIndex, 2> &nodes,
+             const std::array<double, 2>     &share)
     {
+      dealii::Point<dim> centre;
       for (const auto &p : points)
-        face.centre += p.point / static_cast<double>(points.size());
-      face.is_plane = is_plane(points);
-      find_moments(points, face);
-      face.first = place_of_moments(points, face);
-      result.list.push_back(face);
+        centre += p.point / static_cast<double>(points.size());
+      Shape shape{is_plane(points), share, {}, 0};
+      for (unsigned int s = 0; s < 2; ++s)
+        if (nodes[s] != none)
+          shape.offset[s] = centre - centroid[nodes[s]];
+      find_moments(points, centre, shape.is_plane);
+      std::size_t  own   = EqualRecords::none;
+      std::size_t &place = equal.is_looking() ? place_of_equal(points, centre, shape) : own;
+      if (place == EqualRecords::none)
+        {
+          place       = result.kinds.size();
+          shape.first = result.value.size();
+          result.value.insert(result.value.end(), moments.begin(), moments.end());
+          result.kinds.push_back(shape);
+        }
+      result.list.push_back({nodes, static_cast<std::uint32_t>(place)});
     }
 
     /// Sets moments to those of a face.
-    void find_moments(const FacePoints<dim> &points, const Face &face)
+    void find_moments(const FacePoints<dim> &points, const dealii::Point<dim> &centre, const bool is_plane)
     {
       using M = Monomials<dim>;
       moments.clear();
       dealii::Tensor<1, dim> normal;
-      if (face.is_plane)
+      if (is_plane)
         {
           normal = points[0].area / points[0].area.norm();
           for (unsigned int l = 0; l < dim; ++l)
             moments.push_back(normal[l]);
         }
       const std::size_t at = moments.size();
-      moments.resize(at + (face.is_plane ? 1 : dim) * M::n, 0.);
+      moments.resize(at + (is_plane ? 1 : dim) * M::n, 0.);
       std::array<double, M::n> monomials;
       for (const auto &p : points)
         {
-          M::evaluate(p.point - face.centre, monomials);
-          if (face.is_plane)
+          M::evaluate(p.point - centre, monomials);
+          if (is_plane)
             for (unsigned int m = 0; m < M::n; ++m)
               moments[at + m] += (p.area * normal) * monomials[m];
           else
@@ -212,41 +227,36 @@ namespace perideal
         }
     }
 
-    /// Where moments stand in the values of all, to which they are added where no equal ones do.
-    std::size_t place_of_moments(const FacePoints<dim> &points, const Face &face)
-    {
-      std::size_t *const equal_place = equal.is_looking() ? &place_of_equal(points, face) : nullptr;
-      if (equal_place != nullptr && *equal_place != EqualRecords::none)
-        return *equal_place;
-      const std::size_t place = result.value.size();
-      result.value.insert(result.value.end(), moments.begin(), moments.end());
-      if (equal_place != nullptr)
-        *equal_place = place;
-      return place;
-    }
-
-    /// Where moments equal to those found stand, if some were there before.
-    std::size_t &place_of_equal(const FacePoints<dim> &points, const Face &face)
+    /// Number of a shape equal to this one with the moments found, if some was there before.
+    std::size_t &
+    place_of_equal(const FacePoints<dim> &points, const dealii::Point<dim> &centre, const Shape &shape)
     {
       using M     = Monomials<dim>;
       double area = 0, size = 0;
       for (const auto &p : points)
         {
           area += p.area.norm();
-          size = std::max(size, 2. * p.point.distance(face.centre));
+          size = std::max(size, 2. * p.point.distance(centre));
         }
       const double relative = 1e-14 + rounding / size;
       record.clear();
-      const std::size_t n_normals = face.is_plane ? dim : 0;
+      const std::size_t n_normals = shape.is_plane ? dim : 0;
       for (std::size_t m = 0; m < n_normals; ++m)
         record.push_back({moments[m], relative});
       for (std::size_t m = n_normals; m < moments.size(); ++m)
         record.push_back({moments[m], relative * area * std::pow(size, M::degree((m - n_normals) % M::n))});
+      for (unsigned int s = 0; s < 2; ++s)
+        {
+          record.push_back({shape.share[s], 1e-14});
+          for (int d = 0; d < dim; ++d)
+            record.push_back({shape.offset[s][d], rounding + 1e-14 * size});
+        }
       return equal.place_of(record);
     }
 
     FaceMoments                                                   &result;
     const CellGraph<dim>                                          &graph;
+    const std::vector<dealii::Point<dim>>                         &centroid;
     const double                                                   thickness;
     const std::function<double(const dealii::types::material_id)> &stiffness;
     const BondPredicate<dim>                                      &is_cut;
@@ -262,18 +272,19 @@ namespace perideal
 
   template <int dim>
   FaceMoments<dim>::FaceMoments(const Mesh<dim>                                               &mesh,
-                                const CellGraph<dim>                                          &graph,
+                                const CellPolynomials<dim>                                    &polynomials,
                                 const std::function<double(const dealii::types::material_id)> &stiffness,
                                 const BondPredicate<dim>                                      &is_cut,
                                 const bool                                                     share_equal)
   {
+    const CellGraph<dim> &graph = polynomials.graph();
     list.reserve(mesh.triangulation.n_active_faces());
     // In the order of the nodes, so that those of a cell's faces lie close in memory.
     std::vector<Cell> cells(graph.n_owned());
     for (const Cell &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         cells[graph.node_of(cell)] = cell;
-    Builder    builder(*this, graph, mesh.thickness, stiffness, is_cut, share_equal);
+    Builder    builder(*this, polynomials, mesh.thickness, stiffness, is_cut, share_equal);
     const auto visit = [&](const bool at_boundary, const auto &act) {
       for (const Cell &cell : cells)
         for (const unsigned int f : cell->face_indices())
@@ -286,14 +297,15 @@ namespace perideal
     first_at_boundary = list.size();
     visit(true, [&](const Cell &cell, const unsigned int f) { builder.add_boundary_face(cell, f); });
     list.shrink_to_fit();
+    kinds.shrink_to_fit();
     value.shrink_to_fit();
   }
 
   template <int dim>
   std::size_t FaceMoments<dim>::memory_consumption() const
   {
-    return list.size() * sizeof(Face) + dealii::MemoryConsumption::memory_consumption(value) +
-           points.size() * sizeof(BoundaryPoint<dim>);
+    return list.size() * sizeof(Face) + kinds.size() * sizeof(Shape) +
+           dealii::MemoryConsumption::memory_consumption(value) + points.size() * sizeof(BoundaryPoint<dim>);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(FaceMoments)

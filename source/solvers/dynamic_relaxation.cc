@@ -34,7 +34,7 @@ namespace perideal
   template <int dim>
   void DynamicRelaxation<dim>::set_masses(const ConstrainedOperator<dim> &system)
   {
-    const auto blocks = system.diagonal_blocks();
+    const auto blocks = system.jacobi_blocks();
     double     sum    = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i)
       sum += trace(blocks[i]);

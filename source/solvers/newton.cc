@@ -45,7 +45,7 @@ namespace perideal
     system.initialize(residual);
     system.initialize(correction);
     // About the masses of dynamic relaxation, which rounding is known for.
-    const auto blocks = tangent.diagonal_blocks();
+    const auto blocks = tangent.jacobi_blocks();
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)
       for (int d = 0; d < dim; ++d)
         anchors.rest_stiffness.local_element(dim * i + d) = 0.5 * blocks[i][d][d];

@@ -22,7 +22,7 @@ namespace perideal::test
     return std::make_shared<const GradientMoments<dim>>(
       polynomials,
       std::make_shared<const FaceMoments<dim>>(
-        mesh, polynomials->graph(), [](const auto) { return 1.; }, is_cut),
+        mesh, *polynomials, [](const auto) { return 1.; }, is_cut),
       values,
       nodes.communicator);
   }

@@ -79,6 +79,8 @@ namespace perideal
     const std::vector<LocalIndex> &columns() const { return column; }
     /// R of an owned cell, in the order of its columns.
     const Terms *coefficients(const LocalIndex i) const { return coefficient.data() + row_of[i]; }
+    /// The same number for owned cells whose coefficients are the same.
+    std::size_t kind_of(const LocalIndex i) const { return row_of[i]; }
     /// Columns of this rank whose coefficients are those of another cell.
     std::size_t n_shared() const { return column.size() - coefficient.size(); }
 

@@ -192,19 +192,47 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> ConsistentOperator<dim>::jacobi_blocks() const
   {
     const GradientRows<dim>             rows = make_rows({});
     std::vector<dealii::Tensor<2, dim>> blocks(rows.n_columns());
     const BondList                     &list = bonds->list();
     Row<dim>                            row;
+    // Equal cells at rest have equal blocks, of which so many are kept.
+    constexpr std::size_t                            most = 4096;
+    EqualRecords                                     equal(!deformed);
+    std::vector<EqualRecords::Entry>                 record;
+    std::vector<std::vector<dealii::Tensor<2, dim>>> of_equal;
+    std::vector<dealii::Tensor<2, dim>>              of_columns;
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
-        rows.compute(i, row);
-        visit_blocks(i, row, [&](const auto &block) {
-          for (std::size_t k = 0; k < row.column.size(); ++k)
-            blocks[row.column[k]] += block(k, k);
-        });
+        std::size_t  own   = EqualRecords::none;
+        std::size_t *place = &own;
+        if (of_equal.size() < most && equal.is_looking() && rows.describe(i, record))
+          {
+            record.push_back({static_cast<double>(solid_of_node[i]), 0.5});
+            record.push_back({bonds->share(i), 1e-14});
+            place = &equal.place_of(record);
+          }
+        if (*place == EqualRecords::none)
+          {
+            rows.compute(i, row);
+            of_columns.resize(row.column.size());
+            visit_blocks(i, row, [&](const auto &block) {
+              for (std::size_t k = 0; k < of_columns.size(); ++k)
+                of_columns[k] = block(k, k);
+            });
+            if (place != &own)
+              {
+                *place = of_equal.size();
+                of_equal.push_back(of_columns);
+              }
+          }
+        else
+          rows.list_columns(i, row);
+        const auto &of_cell = *place == EqualRecords::none ? of_columns : of_equal[*place];
+        for (std::size_t k = 0; k < of_cell.size(); ++k)
+          blocks[row.column[k]] += of_cell[k];
         for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
           if (const double stiffness = bonds->stiffness(slot); stiffness != 0.)
             {

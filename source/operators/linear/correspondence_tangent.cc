@@ -131,9 +131,9 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> CorrespondenceTangent<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> CorrespondenceTangent<dim>::jacobi_blocks() const
   {
-    return rows->diagonal_blocks([&](const LocalIndex i) { return tangent_of(i); });
+    return rows->jacobi_blocks([&](const LocalIndex i) { return tangent_of(i); });
   }
 
   template <int dim>

@@ -58,10 +58,10 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> FaceSprings<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> FaceSprings<dim>::jacobi_blocks() const
   {
     // As if springs pulled at the nodes: a preconditioner needs no more.
-    auto result = cells->diagonal_blocks();
+    auto result = cells->jacobi_blocks();
     for (std::size_t s = 0; s < springs.size(); ++s)
       result[places[s].cell] += dealii::Tensor<2, dim>(springs[s].stiffness);
     return result;

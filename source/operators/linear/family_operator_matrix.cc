@@ -7,7 +7,7 @@ namespace perideal
 {
   template <int dim, unsigned int n_sums, bool own_force_weights, bool deformed>
   std::vector<dealii::Tensor<2, dim>>
-  FamilyOperator<dim, n_sums, own_force_weights, deformed>::diagonal_blocks() const
+  FamilyOperator<dim, n_sums, own_force_weights, deformed>::jacobi_blocks() const
   {
     // K = sum_bonds stiffness xi xi^T + sum_i P_i map_i G_i with the rows
     // G_i = (d s/d u), P_i = (d F/d A). A node stands in its own G, P and in

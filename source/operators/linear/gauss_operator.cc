@@ -164,7 +164,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> GaussOperator<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> GaussOperator<dim>::jacobi_blocks() const
   {
     // Points are looked at where they are owned, for there their supports are known; a node of another rank
     // gets its part from there.

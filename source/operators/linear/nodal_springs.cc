@@ -42,9 +42,9 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> NodalSprings<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> NodalSprings<dim>::jacobi_blocks() const
   {
-    auto result = bonds->diagonal_blocks();
+    auto result = bonds->jacobi_blocks();
     for (std::size_t i = 0; i < stiffness.size(); ++i)
       result[i / dim][i % dim][i % dim] += stiffness[i];
     return result;

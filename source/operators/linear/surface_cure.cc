@@ -58,7 +58,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> SurfaceCure<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> SurfaceCure<dim>::jacobi_blocks() const
   {
     const auto                         &rows  = gradient.rows();
     const CellGraph<dim>               &graph = gradient.of_faces().graph();
@@ -73,7 +73,7 @@ namespace perideal
                 blocks[rows.column[m]][a][k] += rows.value[m][p] * (n[a][p][k] * rows.value[m]);
       }
     auto       result   = graph.sum_to_owners(blocks);
-    const auto of_bonds = bonds->diagonal_blocks();
+    const auto of_bonds = bonds->jacobi_blocks();
     for (LocalIndex i = 0; i < rows.n_rows(); ++i)
       result[i] += of_bonds[i];
     return result;

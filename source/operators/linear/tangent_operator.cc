@@ -145,10 +145,7 @@ namespace perideal
       {
         whole->vmult(force, displacement);
       }
-      std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override
-      {
-        return whole->diagonal_blocks();
-      }
+      std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override { return whole->jacobi_blocks(); }
       void assemble(const typename BondOperator<dim>::AddBlock &add) const override { whole->assemble(add); }
       void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override
       {

@@ -210,9 +210,9 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> TaylorExtension<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> TaylorExtension<dim>::jacobi_blocks() const
   {
-    auto result = bonds->diagonal_blocks();
+    auto result = bonds->jacobi_blocks();
     // The node itself is the first of its row.
     for (const auto &row : ghosts.rows)
       result[row.node] -= ghosts.block[row.first_node];

@@ -61,7 +61,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> TensorOperator<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> TensorOperator<dim>::jacobi_blocks() const
   {
     const BondList                     &bonds = weights->bonds;
     std::vector<dealii::Tensor<2, dim>> result(families->n_owned());

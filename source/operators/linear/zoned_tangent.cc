@@ -55,12 +55,12 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> ZonedTangent<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> ZonedTangent<dim>::jacobi_blocks() const
   {
-    auto result = cells->diagonal_blocks();
+    auto result = cells->jacobi_blocks();
     if (bonds)
       {
-        const auto blocks = bonds->diagonal_blocks();
+        const auto blocks = bonds->jacobi_blocks();
         for (std::size_t i = 0; i < result.size(); ++i)
           result[i] += blocks[i];
       }

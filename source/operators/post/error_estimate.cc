@@ -196,15 +196,15 @@ namespace perideal
     {
       for (std::size_t f = 0; f < faces.n_inner_faces(); ++f)
         {
-          const auto &face = faces.faces()[f];
+          const auto &face  = faces.faces()[f];
+          const auto &shape = faces.shape_of(face);
           // The area is the integral of the monomial 1 with the normal.
-          const double *moments = faces.values().data() + face.first;
+          const double *moments = faces.moments_of(shape);
           Vector        area;
           for (int l = 0; l < dim; ++l)
-            area[l] = face.is_plane ? moments[l] * moments[dim] : moments[l * Monomials<dim>::n];
-          const auto [i, j]   = face.node;
-          const Vector from_i = face.centre - cells.centroids()[i],
-                       from_j = face.centre - cells.centroids()[j];
+            area[l] = shape.is_plane ? moments[l] * moments[dim] : moments[l * Monomials<dim>::n];
+          const auto [i, j]            = face.node;
+          const auto &[from_i, from_j] = shape.offset;
           const Vector jump = value(j, from_j) - value(i, from_i), normal = area / area.norm();
           const auto   mean_of_both =
             0.5 * (acoustic_tensor(stiffness_of(i), normal) + acoustic_tensor(stiffness_of(j), normal));

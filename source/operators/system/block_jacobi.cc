@@ -10,7 +10,7 @@ namespace perideal
 {
   template <int dim>
   BlockJacobi<dim>::BlockJacobi(const ConstrainedOperator<dim> &system)
-    : inverse(system.diagonal_blocks())
+    : inverse(system.jacobi_blocks())
   {
     for (LocalIndex i = 0; i < inverse.size(); ++i)
       {

@@ -59,9 +59,9 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<2, dim>> ConstrainedOperator<dim>::diagonal_blocks() const
+  std::vector<dealii::Tensor<2, dim>> ConstrainedOperator<dim>::jacobi_blocks() const
   {
-    auto blocks = bonds->diagonal_blocks();
+    auto blocks = bonds->jacobi_blocks();
     blocks.resize(n_nodes());
     for (std::size_t i = 0; i < anchors.size(); ++i)
       blocks[i / dim][i % dim][i % dim] += anchors[i];

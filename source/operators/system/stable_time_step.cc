@@ -39,7 +39,7 @@ namespace perideal
     // Estimates from Lanczos steps differ by some per cent.
     constexpr double      tolerance = 1.05;
     const NodeCloud<dim> &nodes     = system.mirror_layer().nodes();
-    const auto            blocks    = system.diagonal_blocks();
+    const auto            blocks    = system.jacobi_blocks();
     std::vector<double>   slowness(system.n_nodes());
     double                fastest = std::numeric_limits<double>::infinity();
     for (LocalIndex i = 0; i < system.n_nodes(); ++i)

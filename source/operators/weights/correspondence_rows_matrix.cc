@@ -46,7 +46,7 @@ namespace perideal
 
   template <int dim>
   std::vector<dealii::Tensor<2, dim>>
-  CorrespondenceRows<dim>::diagonal_blocks(const TangentOf &tangent_of) const
+  CorrespondenceRows<dim>::jacobi_blocks(const TangentOf &tangent_of) const
   {
     // One vector for each column of the blocks.
     std::vector<NodalVector> columns(dim);

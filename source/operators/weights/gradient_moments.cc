@@ -20,14 +20,15 @@ namespace perideal
   {
     /// What the loops read of a face of a grid along the axes; no axis where it is none.
     /// @param rounding what coordinates are off by [m]
-    template <int dim, typename Shape>
-    AlignedFace<dim> align(const Shape &shape, const double rounding)
+    template <int dim>
+    AlignedFace<dim>
+    align(const typename FaceMoments<dim>::Shape &shape, const double *moments, const double rounding)
     {
       using M = Monomials<dim>;
       AlignedFace<dim> result;
       if (!shape.is_plane)
         return result;
-      const double *normal = shape.moments, *moment = shape.moments + dim;
+      const double *normal = moments, *moment = moments + dim;
       unsigned int  axis = 0;
       for (unsigned int d = 1; d < dim; ++d)
         if (std::abs(normal[d]) > std::abs(normal[axis]))
@@ -72,7 +73,9 @@ namespace perideal
     , n_owned_cells(polynomials->graph().n_owned())
   {
     number(communicator);
-    collect_faces();
+    const double rounding = coordinate_rounding(polynomials->centroids());
+    for (const Shape &shape : face_moments->shapes())
+      aligned.push_back(align<dim>(shape, face_moments->moments_of(shape), rounding));
     collect_held();
     work.gradient.resize(dim * n_owned_cells, NodeRecord{});
     work.moment.resize(dim * dim * n_owned_cells, NodeRecord{});
@@ -117,7 +120,7 @@ namespace perideal
     of_displacements = layout(columns, 1);
 
     std::set<LocalIndex> beyond;
-    for (const auto &face : face_moments->faces())
+    for (const Face &face : face_moments->faces())
       for (const LocalIndex node : face.node)
         if (node != FaceMoments<dim>::none && node >= n_owned_cells)
           beyond.insert(node);
@@ -129,50 +132,6 @@ namespace perideal
 
     work.displacement.resize(n_owned_cells + columns.size(), NodeRecord{});
     work.polynomial.resize(n_coefficients * (n_owned_cells + cells.size()), NodeRecord{});
-  }
-
-  template <int dim>
-  void GradientMoments<dim>::collect_faces()
-  {
-    list.faces.reserve(face_moments->faces().size());
-    const double                     rounding = coordinate_rounding(polynomials->centroids());
-    EqualRecords                     equal(true);
-    std::vector<EqualRecords::Entry> record;
-    for (const auto &from : face_moments->faces())
-      {
-        Face  face{};
-        Shape shape{};
-        shape.is_plane = from.is_plane;
-        shape.moments  = face_moments->values().data() + from.first;
-        record.assign(1, {static_cast<double>(from.first), 0.5});
-        for (unsigned int s = 0; s < 2; ++s)
-          {
-            face.cell[s]   = from.node[s];
-            shape.share[s] = from.share[s];
-            record.push_back({from.share[s], 1e-14});
-            if (from.node[s] == FaceMoments<dim>::none)
-              continue;
-            const dealii::Tensor<1, dim> offset = from.centre - polynomials->centroids()[from.node[s]];
-            for (int d = 0; d < dim; ++d)
-              {
-                shape.offset[s][d] = offset[d];
-                record.push_back({offset[d], rounding + 1e-14 * offset.norm()});
-              }
-            if (from.node[s] >= n_owned_cells)
-              face.cell[s] = polynomial_of_ghost[from.node[s] - n_owned_cells];
-          }
-        std::size_t  own   = EqualRecords::none;
-        std::size_t &place = equal.is_looking() ? equal.place_of(record) : own;
-        if (place == EqualRecords::none)
-          {
-            place         = list.shapes.size();
-            shape.aligned = align<dim>(shape, rounding);
-            list.shapes.push_back(shape);
-          }
-        face.shape = static_cast<std::uint32_t>(place);
-        list.faces.push_back(face);
-      }
-    list.shapes.shrink_to_fit();
   }
 
   template <int dim>
@@ -275,8 +234,7 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return polynomials->memory_consumption() + face_moments->memory_consumption() +
-           memory_consumption(column) + list.faces.size() * sizeof(Face) +
-           list.shapes.size() * sizeof(Shape) +
+           memory_consumption(column) + aligned.size() * sizeof(AlignedFace<dim>) +
            (work.displacement.size() + work.polynomial.size() + work.gradient.size() + work.moment.size() +
             work.value_force.size() + work.trace_force.size()) *
              sizeof(NodeRecord);

@@ -3,6 +3,9 @@
 #include <perideal/base/record_exchange.h>
 #include <perideal/operators/weights/gradient_moments.h>
 
+#include <array>
+#include <type_traits>
+
 // The hot loops of GradientMoments over faces, and their transposes.
 
 namespace perideal
@@ -28,17 +31,34 @@ namespace perideal
       prefetch(work.moment.data() + dim * dim * i, dim * dim);
     }
 
-    /// Adds what an aligned inner face gives to gradients and moments.
-    template <int dim, unsigned int axis, typename Work, typename Face, typename Shape>
-    PERIDEAL_INLINE void
-    sum_over_aligned(Work &work, const LocalIndex n_owned, const Face &face, const Shape &shape)
+    /// Calls act with the axis of an aligned face as a constant.
+    template <int dim, typename Act>
+    PERIDEAL_INLINE void with_axis(const unsigned int axis, const Act &act)
     {
-      const AlignedFace<dim> &aligned = shape.aligned;
-      AlignedPolynomial<dim>  polynomial;
+      if (axis == 0)
+        act(std::integral_constant<unsigned int, 0>());
+      else if (axis == 1)
+        act(std::integral_constant<unsigned int, 1>());
+      else
+        act(std::integral_constant<unsigned int, dim - 1>());
+    }
+
+    /// The places of the polynomials of a face's cells.
+    using Cells = std::array<LocalIndex, 2>;
+
+    /// Adds what an aligned inner face gives to gradients and moments.
+    template <int dim, unsigned int axis, typename Work>
+    PERIDEAL_INLINE void sum_over_aligned(Work                        &work,
+                                          const LocalIndex             n_owned,
+                                          const Cells                 &cell,
+                                          const std::array<double, 2> &share,
+                                          const AlignedFace<dim>      &aligned)
+    {
+      AlignedPolynomial<dim> polynomial;
       for (unsigned int side = 0; side < 2; ++side)
-        add_along<dim, axis>(work.polynomial.data() + Monomials<dim>::n_coefficients * face.cell[side],
+        add_along<dim, axis>(work.polynomial.data() + Monomials<dim>::n_coefficients * cell[side],
                              aligned.offset[side],
-                             shape.share[side],
+                             share[side],
                              polynomial);
       Lanes total = aligned.area * polynomial.value, first[dim - 1];
       for (unsigned int j = 0; j < dim - 1; ++j)
@@ -47,7 +67,7 @@ namespace perideal
           first[j] = aligned.square[j] * polynomial.slope[j];
         }
       for (unsigned int side = 0; side < 2; ++side)
-        if (const LocalIndex i = face.cell[side]; i < n_owned)
+        if (const LocalIndex i = cell[side]; i < n_owned)
           {
             const double sign = side == 0 ? 1. : -1.;
             NodeRecord  *h    = work.moment.data() + dim * dim * i + axis;
@@ -59,14 +79,16 @@ namespace perideal
     }
 
     /// Its transpose: adds what acts on them to what acts on polynomials.
-    template <int dim, unsigned int axis, typename Work, typename Face, typename Shape>
-    PERIDEAL_INLINE void
-    spread_to_aligned(Work &work, const LocalIndex n_owned, const Face &face, const Shape &shape)
+    template <int dim, unsigned int axis, typename Work>
+    PERIDEAL_INLINE void spread_to_aligned(Work                        &work,
+                                           const LocalIndex             n_owned,
+                                           const Cells                 &cell,
+                                           const std::array<double, 2> &share,
+                                           const AlignedFace<dim>      &aligned)
     {
-      const AlignedFace<dim> &aligned = shape.aligned;
-      Lanes                   pull = {}, first[dim - 1] = {};
+      Lanes pull = {}, first[dim - 1] = {};
       for (unsigned int side = 0; side < 2; ++side)
-        if (const LocalIndex i = face.cell[side]; i < n_owned)
+        if (const LocalIndex i = cell[side]; i < n_owned)
           {
             const double      sign = side == 0 ? 1. : -1.;
             const NodeRecord *h    = work.moment.data() + dim * dim * i + axis;
@@ -85,8 +107,8 @@ namespace perideal
       for (unsigned int side = 0; side < 2; ++side)
         add_along_back<dim, axis>(polynomial,
                                   aligned.offset[side],
-                                  shape.share[side],
-                                  work.polynomial.data() + Monomials<dim>::n_coefficients * face.cell[side]);
+                                  share[side],
+                                  work.polynomial.data() + Monomials<dim>::n_coefficients * cell[side]);
     }
   } // namespace
 
@@ -108,8 +130,7 @@ namespace perideal
     std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
     std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
     const auto add =
-      [&](const Face &face, const Shape &shape, const unsigned int side, const FaceSums<dim> &sums) {
-        const LocalIndex i = face.cell[side];
+      [&](const LocalIndex i, const Shape &shape, const unsigned int side, const FaceSums<dim> &sums) {
         if (i >= n_owned_cells)
           return;
         const double sign = side == 0 ? 1. : -1.;
@@ -122,33 +143,31 @@ namespace perideal
               lanes(h[dim * k + l]) += sign * sums.moment[k][l] + shape.offset[side][k] * value;
           }
       };
+    const auto       &faces         = face_moments->faces();
     const std::size_t n_inner_faces = face_moments->n_inner_faces();
     auto              next          = held.begin();
-    for (std::size_t f = 0; f < list.faces.size(); ++f)
+    for (std::size_t f = 0; f < faces.size(); ++f)
       {
         if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
-        const Face  &face     = list.faces[f];
-        const Shape &shape    = list.shapes[face.shape];
+          prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
+        const Shape &shape    = face_moments->shape_of(faces[f]);
         const bool   is_inner = f < n_inner_faces;
-        if (is_inner && shape.aligned.axis != AlignedFace<dim>::none)
+        const Cells  cell     = cells_of(faces[f], is_inner);
+        if (const auto &along = aligned[faces[f].shape]; is_inner && along.axis != AlignedFace<dim>::none)
           {
-            if (shape.aligned.axis == 0)
-              sum_over_aligned<dim, 0>(work, n_owned_cells, face, shape);
-            else if (shape.aligned.axis == 1)
-              sum_over_aligned<dim, 1>(work, n_owned_cells, face, shape);
-            else
-              sum_over_aligned<dim, dim - 1>(work, n_owned_cells, face, shape);
+            with_axis<dim>(along.axis, [&](const auto axis) {
+              sum_over_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
+            });
             continue;
           }
         Lanes         polynomial[n_coefficients] = {};
         FaceSums<dim> sums;
         for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
-          add_shifted<dim>(work.polynomial.data() + n_coefficients * face.cell[side],
-                           shape.offset[side],
+          add_shifted<dim>(work.polynomial.data() + n_coefficients * cell[side],
+                           shape.offset[side].begin_raw(),
                            shape.share[side],
                            polynomial);
-        integrate<dim>(shape.moments, shape.is_plane, polynomial, sums);
+        integrate<dim>(face_moments->moments_of(shape), shape.is_plane, polynomial, sums);
         if (!is_inner && next != held.end() && next->first == f)
           {
             const Held &of_face = next->second;
@@ -158,7 +177,7 @@ namespace perideal
                 for (unsigned int k = 0; k < dim; ++k)
                   sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
               }
-            const auto &centre = face_moments->faces()[f].centre;
+            const auto centre = polynomials->centroids()[cell[0]] + shape.offset[0];
             for (unsigned int q = 0; at_faces != AtFaces::nothing && q < FaceMoments<dim>::n_points; ++q)
               {
                 const std::size_t e     = next->second.first_entry + q;
@@ -174,7 +193,7 @@ namespace perideal
             ++next;
           }
         for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
-          add(face, shape, side, sums);
+          add(cell[side], shape, side, sums);
       }
   }
 
@@ -182,46 +201,44 @@ namespace perideal
   void GradientMoments<dim>::spread_to_faces() const
   {
     std::fill(work.polynomial.begin(), work.polynomial.end(), NodeRecord{});
-    const auto add = [&](const Face &face, const Shape &shape, const unsigned int side, FaceSums<dim> &sums) {
-      const LocalIndex i = face.cell[side];
-      if (i >= n_owned_cells)
-        return;
-      const double      sign = side == 0 ? 1. : -1.;
-      const NodeRecord *g = gradient(i), *h = moment(i);
-      for (unsigned int l = 0; l < dim; ++l)
-        {
-          Lanes pull = lanes(g[l]);
-          for (unsigned int k = 0; k < dim; ++k)
-            {
-              pull += shape.offset[side][k] * lanes(h[dim * k + l]);
-              sums.moment[k][l] += sign * lanes(h[dim * k + l]);
-            }
-          sums.gradient[l] += sign * pull;
-        }
-    };
+    const auto add =
+      [&](const LocalIndex i, const Shape &shape, const unsigned int side, FaceSums<dim> &sums) {
+        if (i >= n_owned_cells)
+          return;
+        const double      sign = side == 0 ? 1. : -1.;
+        const NodeRecord *g = gradient(i), *h = moment(i);
+        for (unsigned int l = 0; l < dim; ++l)
+          {
+            Lanes pull = lanes(g[l]);
+            for (unsigned int k = 0; k < dim; ++k)
+              {
+                pull += shape.offset[side][k] * lanes(h[dim * k + l]);
+                sums.moment[k][l] += sign * lanes(h[dim * k + l]);
+              }
+            sums.gradient[l] += sign * pull;
+          }
+      };
+    const auto       &faces         = face_moments->faces();
     const std::size_t n_inner_faces = face_moments->n_inner_faces();
     auto              next          = held.begin();
-    for (std::size_t f = 0; f < list.faces.size(); ++f)
+    for (std::size_t f = 0; f < faces.size(); ++f)
       {
         if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, list.faces[f + n_ahead].cell[1]);
-        const Face        &face    = list.faces[f];
-        const Shape       &shape   = list.shapes[face.shape];
+          prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
+        const Shape       &shape   = face_moments->shape_of(faces[f]);
         const unsigned int n_sides = f < n_inner_faces ? 2 : 1;
-        if (n_sides == 2 && shape.aligned.axis != AlignedFace<dim>::none)
+        const Cells        cell    = cells_of(faces[f], n_sides == 2);
+        if (const auto &along = aligned[faces[f].shape]; n_sides == 2 && along.axis != AlignedFace<dim>::none)
           {
-            if (shape.aligned.axis == 0)
-              spread_to_aligned<dim, 0>(work, n_owned_cells, face, shape);
-            else if (shape.aligned.axis == 1)
-              spread_to_aligned<dim, 1>(work, n_owned_cells, face, shape);
-            else
-              spread_to_aligned<dim, dim - 1>(work, n_owned_cells, face, shape);
+            with_axis<dim>(along.axis, [&](const auto axis) {
+              spread_to_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
+            });
             continue;
           }
         FaceSums<dim> sums = {};
         Lanes         polynomial[n_coefficients];
         for (unsigned int side = 0; side < n_sides; ++side)
-          add(face, shape, side, sums);
+          add(cell[side], shape, side, sums);
         if (n_sides == 1 && next != held.end() && next->first == f)
           {
             const Held &of_face = next->second;
@@ -233,12 +250,12 @@ namespace perideal
               }
             ++next;
           }
-        integrate_back<dim>(shape.moments, shape.is_plane, sums, polynomial);
+        integrate_back<dim>(face_moments->moments_of(shape), shape.is_plane, sums, polynomial);
         for (unsigned int side = 0; side < n_sides; ++side)
           add_shifted_back<dim>(polynomial,
-                                shape.offset[side],
+                                shape.offset[side].begin_raw(),
                                 shape.share[side],
-                                work.polynomial.data() + n_coefficients * face.cell[side]);
+                                work.polynomial.data() + n_coefficients * cell[side]);
       }
     add_to_owners(*of_polynomials, work.polynomial, work.temporary);
   }

@@ -24,7 +24,7 @@ namespace perideal
     const CellGraph<dim> &graph = polynomials.graph();
     first_of_rank               = dealii::Utilities::MPI::all_gather(
       graph.communicator, graph.n_owned() > 0 ? graph.global_number(0) : GlobalIndex(-1));
-    for (LocalIndex k = 0; k < graph.n_local(); ++k)
+    for (LocalIndex k = graph.n_owned(); k < graph.n_local(); ++k)
       number_of[graph.global_number(k)] = k;
     collect_sides(prescribed);
     exchange_polynomials();
@@ -34,56 +34,20 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientRows<dim>::collect_sides(const FaceValues<dim> &prescribed)
-  {
-    const LocalIndex                              n_owned = polynomials.graph().n_owned();
-    std::map<unsigned int, std::array<bool, dim>> held;
-    for (const auto &entry : prescribed.entries())
-      for (int d = 0; d < dim; ++d)
-        // A face that slides along no axis is taken for one that does: a preconditioner needs no more.
-        held[face_moments.boundary_points()[entry.point].face][d] =
-          entry.condition[d] != FaceValues<dim>::free || entry.normal[d] * entry.normal[d] > 0.5;
-    const auto &faces = face_moments.faces();
-    first_side.assign(n_owned + 1, 0);
-    for (const auto &face : faces)
-      for (const LocalIndex node : face.node)
-        if (node < n_owned)
-          ++first_side[node + 1];
-    for (LocalIndex i = 0; i < n_owned; ++i)
-      first_side[i + 1] += first_side[i];
-    sides.resize(first_side[n_owned]);
-    auto next = first_side;
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      for (unsigned int s = 0; s < 2; ++s)
-        if (faces[f].node[s] < n_owned)
-          {
-            Side side{f, s, {}};
-            if (f >= face_moments.first_boundary_face())
-              if (const auto of = held.find(f - face_moments.first_boundary_face()); of != held.end())
-                side.held = of->second;
-            sides[next[faces[f].node[s]]++] = side;
-          }
-  }
-
-  template <int dim>
-  void GradientRows<dim>::add_map(const Side        &side,
-                                  const unsigned int of_polynomial,
-                                  const LocalIndex   cell,
-                                  Map               &map) const
+  void GradientRows<dim>::add_map(const Side &side, const unsigned int of_polynomial, Map &map) const
   {
     using M              = Monomials<dim>;
-    const auto   &face   = face_moments.faces()[side.face];
-    const double  share  = (side.side == 0 ? 1. : -1.) * face.share[of_polynomial];
-    const auto    offset = face.centre - polynomials.centroids()[face.node[of_polynomial]];
-    const auto    arm    = face.centre - polynomials.centroids()[cell];
-    const double *values = face_moments.values().data() + face.first;
+    const auto   &shape  = face_moments.shape_of(face_moments.faces()[side.face]);
+    const double  share  = (side.side == 0 ? 1. : -1.) * shape.share[of_polynomial];
+    const auto   &offset = shape.offset[of_polynomial], &arm = shape.offset[side.side];
+    const double *values = face_moments.moments_of(shape);
     // Integrals over the face of a monomial about the centre with n_l, and with n_l (x - centre)_k.
     const auto add = [&](const unsigned int coefficient, const unsigned int m, const double factor) {
       auto &to = map.of[coefficient];
       for (unsigned int l = 0; l < dim; ++l)
         {
-          const double *t      = values + (face.is_plane ? dim : l * M::n);
-          const double  normal = share * factor * (face.is_plane ? values[l] : 1.);
+          const double *t      = values + (shape.is_plane ? dim : l * M::n);
+          const double  normal = share * factor * (shape.is_plane ? values[l] : 1.);
           to[l] += normal * t[m];
           for (unsigned int k = 0; k < dim; ++k)
             to[dim + dim * k + l] += normal * (t[M::times(m, k)] + arm[k] * t[m]);
@@ -142,11 +106,11 @@ namespace perideal
       if (!sides[s].held[component])
         {
           const auto &face = face_moments.faces()[sides[s].face];
-          add_map(sides[s], sides[s].side, i, own);
+          add_map(sides[s], sides[s].side, own);
           if (const LocalIndex other = face.node[1 - sides[s].side]; other != FaceMoments<dim>::none)
             {
               Map of_other{};
-              add_map(sides[s], 1 - sides[s].side, i, of_other);
+              add_map(sides[s], 1 - sides[s].side, of_other);
               visit_with_unknown(other, of_other);
             }
         }
@@ -288,7 +252,15 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientRows<dim>::compute(const LocalIndex i, Row &row) const
+  void GradientRows<dim>::list_columns(const LocalIndex i, Row &row) const
+  {
+    take_columns(i, row);
+    for (const LocalIndex column : row.column)
+      place[column] = nowhere;
+  }
+
+  template <int dim>
+  void GradientRows<dim>::take_columns(const LocalIndex i, Row &row) const
   {
     row.column.clear();
     const auto take = [&](const LocalIndex column) {
@@ -307,7 +279,12 @@ namespace perideal
       if (const LocalIndex other = face_moments.faces()[sides[s].face].node[1 - sides[s].side];
           other != FaceMoments<dim>::none)
         take_polynomial(other);
+  }
 
+  template <int dim>
+  void GradientRows<dim>::compute(const LocalIndex i, Row &row) const
+  {
+    take_columns(i, row);
     row.value.assign(row.column.size(), 0.);
     const auto of_unknown = polynomials.at_unknown(i);
     row.value[place[i]]   = 1.;

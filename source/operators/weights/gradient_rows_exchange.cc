@@ -95,6 +95,10 @@ namespace perideal
   template <int dim>
   LocalIndex GradientRows<dim>::column_of(const GlobalIndex number)
   {
+    const CellGraph<dim> &graph = polynomials.graph();
+    if (graph.n_owned() > 0 && number >= graph.global_number(0) &&
+        number < graph.global_number(0) + graph.n_owned())
+      return number - graph.global_number(0);
     const auto inserted = number_of.insert({number, n_columns()});
     if (inserted.second)
       further.push_back(number);

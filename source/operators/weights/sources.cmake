@@ -16,5 +16,6 @@ perideal_room(operators/weights
     gradient_moments_loops.cc
     gradient_rows.cc
     gradient_rows_exchange.cc
+    gradient_rows_sides.cc
     tensor_weights.cc
 )

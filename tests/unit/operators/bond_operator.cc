@@ -255,9 +255,8 @@ namespace
           whole.force_of(rough);
           EXPECT_EQ(divided.bonds->counts.fallback, whole.bonds->counts.fallback);
           EXPECT_EQ(divided.bonds->counts.singular, whole.bonds->counts.singular);
-          const auto divided_blocks = divided.bonds->diagonal_blocks(),
-                     blocks         = whole.bonds->diagonal_blocks();
-          const double size         = whole.force.linfty_norm();
+          const auto   divided_blocks = divided.bonds->jacobi_blocks(), blocks = whole.bonds->jacobi_blocks();
+          const double size = whole.force.linfty_norm();
           for (LocalIndex i = 0; i < divided.body.nodes.size(); ++i)
             for (LocalIndex j = 0; j < whole.body.nodes.size(); ++j)
               if (divided.body.nodes.position[i].distance(whole.body.nodes.position[j]) < 1e-12)
@@ -282,7 +281,7 @@ namespace
       const Eigen::Map<const Eigen::VectorXd> u(free_body.displacement.begin(), matrix.rows());
       const Eigen::Map<const Eigen::VectorXd> f(free_body.force.begin(), matrix.rows());
       EXPECT_LE((matrix * u - f).norm(), 1e-12 * f.norm());
-      const auto blocks = free_body.bonds->diagonal_blocks();
+      const auto blocks = free_body.bonds->jacobi_blocks();
       for (LocalIndex i = 0; i < blocks.size(); ++i)
         {
           dealii::Tensor<2, dim> of_diagonal;

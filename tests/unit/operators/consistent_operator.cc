@@ -32,7 +32,7 @@ namespace
       parameters.resolve(dim);
       const auto polynomials  = std::make_shared<const CellPolynomials<dim>>(mesh, body.nodes);
       const auto face_moments = std::make_shared<const FaceMoments<dim>>(
-        mesh, polynomials->graph(), [&](const auto id) { return solid_of(id).isotropic().shear_modulus(); });
+        mesh, *polynomials, [&](const auto id) { return solid_of(id).isotropic().shear_modulus(); });
       values = std::make_shared<FaceValues<dim>>(face_moments->boundary_points(), loads);
       values->set_time(loads, 1.);
       moments =

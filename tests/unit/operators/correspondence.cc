@@ -57,8 +57,8 @@ namespace
       if (form == "consistent")
         {
           const auto polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, body.nodes);
-          const auto faces       = std::make_shared<const FaceMoments<dim>>(
-            mesh, polynomials->graph(), [](const auto) { return 1.; });
+          const auto faces =
+            std::make_shared<const FaceMoments<dim>>(mesh, *polynomials, [](const auto) { return 1.; });
           face_values = std::make_shared<FaceValues<dim>>(faces->boundary_points(), loads);
           face_values->set_time(loads, 1.);
           moments =
@@ -187,7 +187,7 @@ namespace
       // Symmetry, and the diagonal by unit vectors.
       b.tangent->vmult(b.other, e);
       EXPECT_NEAR(b.result * e, b.other * d, 1e-12 * size * e.l2_norm());
-      const auto blocks = b.tangent->diagonal_blocks();
+      const auto blocks = b.tangent->jacobi_blocks();
       const auto range  = b.result.get_partitioner()->local_range();
       for (GlobalIndex node = 0; node < b.result.size() / dim; node += 7)
         {

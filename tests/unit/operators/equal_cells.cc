@@ -24,7 +24,7 @@ namespace
                                                                  CellUnknown::mean,
                                                                  share_equal))
       , faces(std::make_shared<const FaceMoments<dim>>(
-          mesh, polynomials->graph(), [](const auto) { return 1.; }, BondPredicate<dim>(), share_equal))
+          mesh, *polynomials, [](const auto) { return 1.; }, BondPredicate<dim>(), share_equal))
       , moments(polynomials,
                 faces,
                 std::make_shared<FaceValues<dim>>(faces->boundary_points(), Loads<dim>(LoadParameters())),

@@ -43,7 +43,7 @@ namespace
     const test::Body<dim> body(mesh, 2.01);
     const auto            polynomials = std::make_shared<const CellPolynomials<dim>>(mesh, body.nodes);
     const auto            face_moments =
-      std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; });
+      std::make_shared<const FaceMoments<dim>>(mesh, *polynomials, [](const auto) { return 1.; });
     const auto values = std::make_shared<FaceValues<dim>>(face_moments->boundary_points(), loads);
     values->set_time(loads, 1.);
     const GradientMoments<dim> moments(polynomials, face_moments, values, MPI_COMM_WORLD);

@@ -102,7 +102,7 @@ namespace
       }
   }
 
-  /// The matrix behind vmult() is the one that assemble() and diagonal_blocks() say.
+  /// The matrix behind vmult() is the one that assemble() and jacobi_blocks() say.
   template <int dim>
   void expect_one_matrix(const Mesh<dim> &mesh)
   {
@@ -125,7 +125,7 @@ namespace
     for (std::size_t k = 0; k < product.locally_owned_size(); ++k)
       ASSERT_NEAR(product.local_element(k), gauss.force.local_element(k), 1e-12 * scale);
 
-    const auto blocks = gauss.bonds->diagonal_blocks();
+    const auto blocks = gauss.bonds->jacobi_blocks();
     const auto first  = product.get_partitioner()->local_range().first;
     for (LocalIndex i = 0; i < blocks.size(); ++i)
       for (int a = 0; a < dim; ++a)

@@ -317,7 +317,7 @@ namespace
               matrix[unknowns[r] * n + unknowns[c]] += values[r * unknowns.size() + c];
         });
       dealii::Utilities::MPI::sum(matrix, MPI_COMM_WORLD, all);
-      const auto        blocks = body.tangent->diagonal_blocks();
+      const auto        blocks = body.tangent->jacobi_blocks();
       const GlobalIndex first  = dim * body.body.nodes.first_global;
       double            error = 0, block_error = 0, largest = 0;
       for (GlobalIndex c = 0; c < n; ++c)

@@ -309,7 +309,7 @@ TEST(TaylorExtension, AssembleWhatTheyMultiply)
   matrix.vmult(product, source);
   system.vmult(force, source);
   const double scale  = product.linfty_norm();
-  const auto   blocks = box.ghosts->diagonal_blocks();
+  const auto   blocks = box.ghosts->jacobi_blocks();
   const auto   first  = product.get_partitioner()->local_range().first;
   for (LocalIndex i = 0; i < blocks.size(); ++i)
     for (int a = 0; a < 2; ++a)

@@ -59,7 +59,7 @@ namespace
       const auto polynomials = std::make_shared<const CellPolynomials<dim>>(
         mesh, body.nodes, [&](const auto) { return solid.stiffness(); });
       const auto faces =
-        std::make_shared<const FaceMoments<dim>>(mesh, polynomials->graph(), [](const auto) { return 1.; });
+        std::make_shared<const FaceMoments<dim>>(mesh, *polynomials, [](const auto) { return 1.; });
       LoadParameters text;
       text.conditions.resize(is_held ? 1 : 0);
       if (is_held)
@@ -169,7 +169,7 @@ namespace
       matrix.vmult(f, u);
       for (const auto k : range)
         EXPECT_NEAR(layers.force[k], f[k], 1e-12 * f.linfty_norm());
-      const auto blocks = layers.bonds->diagonal_blocks();
+      const auto blocks = layers.bonds->jacobi_blocks();
       const auto first  = range.is_empty() ? 0 : *range.begin();
       for (LocalIndex i = 0; i < blocks.size(); ++i)
         {

@@ -283,8 +283,9 @@ namespace
     ZonedBox<dim> before(0.01, MPI_COMM_SELF, false, criterion), after(0.01, MPI_COMM_SELF, false, criterion);
     for (const double strain : {0.004, 0.007})
       before.force->compute(before.value, before.pulled(strain, 1e-4));
-    const unsigned int rank      = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const std::string  directory = "zoned_force_" + std::to_string(dim) + "d_" + std::to_string(rank);
+    const unsigned int                       rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const perideal::test::TemporaryDirectory of_test;
+    const std::string                        directory = of_test.path(std::to_string(rank));
     std::filesystem::create_directories(directory);
     CheckpointNodes nodes{{}, before.body.nodes.size(), before.body.nodes.n_global, MPI_COMM_SELF};
     for (LocalIndex i = 0; i < nodes.n_owned; ++i)

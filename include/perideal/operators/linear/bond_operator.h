@@ -45,7 +45,7 @@ namespace perideal
 
     /// The dim x dim blocks on the diagonal of K, or what preconditions as well, by owned node [N/m].
     /// Collective.
-    virtual std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const = 0;
+    virtual std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const = 0;
 
     using AddBlock = perideal::AddBlock;
 

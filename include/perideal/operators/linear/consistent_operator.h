@@ -57,7 +57,7 @@ namespace perideal
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
     void add_increments(NodalVector &force) const override;
     /// Blocks near those on the diagonal: of bonds they have what the values at their ends do.
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
     std::size_t memory_consumption() const override;

@@ -35,7 +35,7 @@ namespace perideal
     void   vmult(NodalVector &force, const NodalVector &displacement) const override;
     void   internal_force(NodalVector &force, const NodalVector &displacement) const override;
     double energy_of_expansion() const override { return expansion.energy; }
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void        assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     bool        is_symmetric() const override { return true; }
     std::size_t memory_consumption() const override;

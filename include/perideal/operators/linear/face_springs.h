@@ -29,7 +29,7 @@ namespace perideal
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     /// Not for springs.
     void assemble(const typename BondOperator<dim>::AddBlock &) const override
     {

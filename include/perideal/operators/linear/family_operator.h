@@ -47,7 +47,7 @@ namespace perideal
       const std::shared_ptr<const FamilyWeights<dim, n_sums, own_force_weights>> &weights);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void                assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     void                visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
     std::vector<double> dilatation() const override

@@ -41,7 +41,7 @@ namespace perideal
                   const Stiffening                              &stiffening);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
 
     /// Springs have no dilatation of their own: 0.

@@ -34,7 +34,7 @@ namespace perideal
                 const SolidOf<dim>                             &solid_of);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
 
     /// Trace of the gradient of the last vmult(), by owned node.

@@ -51,7 +51,7 @@ namespace perideal
                     const dealii::SymmetricTensor<4, dim>          &stiffness);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
 
     /// Adds the forces on nodes that come of given tractions and displacements [N].

@@ -21,7 +21,7 @@ namespace perideal
     explicit TensorOperator(const std::shared_ptr<const TensorWeights<dim>> &weights);
 
     void vmult(NodalVector &force, const NodalVector &displacement) const override;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void assemble(const typename BondOperator<dim>::AddBlock &add) const override;
     void visit_bond_forces(const typename BondOperator<dim>::VisitBond &visit) const override;
 

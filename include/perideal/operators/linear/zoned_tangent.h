@@ -25,7 +25,7 @@ namespace perideal
     void internal_force(NodalVector &force, const NodalVector &displacement) const override;
     void add_increments(NodalVector &force) const override { cells->add_increments(force); }
     std::vector<dealii::Tensor<1, dim>> support_forces() const override { return cells->support_forces(); }
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const override;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const override;
     void                                assemble(const AddBlock &add) const override;
     std::vector<double>                 dilatation() const override { return cells->dilatation(); }
     bool        is_symmetric() const override { return !bonds || bonds->is_symmetric(); }

@@ -44,7 +44,7 @@ namespace perideal
     residual(NodalVector &result, const NodalVector &external_force, const NodalVector &displacement) const;
 
     /// dim x dim blocks of the diagonal; of held rows and columns only the diagonal is left.
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks() const;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks() const;
 
     bool is_symmetric() const { return bonds->is_symmetric() && mirror->keeps_symmetry(); }
     bool is_held(const std::size_t component) const { return held[component] != 0; }

@@ -69,7 +69,7 @@ namespace perideal
     /// Of the Hessian of U with dP/dF given by node [Pa]: blocks on the diagonal, and pieces as of
     /// BondOperator. Collective.
     using TangentOf = std::function<dealii::Tensor<4, dim>(const LocalIndex)>;
-    std::vector<dealii::Tensor<2, dim>> diagonal_blocks(const TangentOf &tangent_of) const;
+    std::vector<dealii::Tensor<2, dim>> jacobi_blocks(const TangentOf &tangent_of) const;
     void                                assemble(const TangentOf &tangent_of, const AddBlock &add) const;
 
     std::size_t memory_consumption() const;

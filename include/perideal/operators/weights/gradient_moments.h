@@ -12,7 +12,7 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
 
-#include <cstdint>
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -115,22 +115,8 @@ namespace perideal
     std::size_t memory_consumption() const;
 
   private:
-    /// What the loops read of a face beside its cells; equal faces share it.
-    struct Shape
-    {
-      bool   is_plane;
-      double share[2];
-      /// Of the centre of the face from the centroids [m].
-      double           offset[2][dim];
-      const double    *moments;
-      AlignedFace<dim> aligned;
-    };
-    /// A face as the loops read it: cells in the numbers of polynomials.
-    struct Face
-    {
-      LocalIndex    cell[2];
-      std::uint32_t shape;
-    };
+    using Face  = typename FaceMoments<dim>::Face;
+    using Shape = typename FaceMoments<dim>::Shape;
     /// Components of a boundary face that are prescribed: 1 where so. Of a face that slides the normal, along
     /// which it does not move; else 0.
     struct Held
@@ -149,8 +135,16 @@ namespace perideal
     };
 
     void number(MPI_Comm communicator);
-    void collect_faces();
     void collect_held();
+
+    /// Places of the polynomials of a face's cells.
+    std::array<LocalIndex, 2> cells_of(const Face &face, const bool is_inner) const
+    {
+      const auto place_of = [&](const LocalIndex node) {
+        return node < n_owned_cells ? node : polynomial_of_ghost[node - n_owned_cells];
+      };
+      return {{place_of(face.node[0]), is_inner ? place_of(face.node[1]) : FaceMoments<dim>::none}};
+    }
 
     void read_polynomials(const NodalVector &displacement) const;
     void sum_over_faces(const AtFaces at_faces) const;
@@ -169,12 +163,8 @@ namespace perideal
     std::vector<LocalIndex>                                    column;
     std::vector<LocalIndex>                                    polynomial_of_ghost;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_displacements, of_polynomials;
-    struct FaceList
-    {
-      std::vector<Face>  faces;
-      std::vector<Shape> shapes;
-    };
-    FaceList list;
+    /// By shape.
+    std::vector<AlignedFace<dim>> aligned;
     /// By face, all of them at the boundary.
     std::map<std::size_t, Held> held;
 

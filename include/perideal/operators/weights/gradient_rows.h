@@ -2,6 +2,7 @@
 #ifndef perideal_operators_weights_gradient_rows_h
 #define perideal_operators_weights_gradient_rows_h
 
+#include <perideal/base/equal_records.h>
 #include <perideal/boundary/face_values.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 #include <perideal/reconstruction/face_moments.h>
@@ -74,6 +75,12 @@ namespace perideal
 
     /// Computes the row of an owned cell.
     void compute(const LocalIndex i, Row &row) const;
+    /// Lists its columns only, in the same order.
+    void list_columns(const LocalIndex i, Row &row) const;
+    /// Puts what the row of an owned cell depends on into a record: cells of equal records have equal rows
+    /// but for their columns.
+    /// @return false where a polynomial of another rank or a closed one counts, which nothing is told of
+    bool describe(const LocalIndex i, std::vector<EqualRecords::Entry> &record) const;
 
     /// The row of a wanted cell.
     const Row &at(const GlobalIndex cell) const { return of_others.at(cell); }
@@ -114,12 +121,14 @@ namespace perideal
       std::array<std::array<double, dim + dim * dim>, Monomials<dim>::n_coefficients> of;
     };
 
+    /// Lists the columns, and keeps in `place` where they stand.
+    void       take_columns(const LocalIndex i, Row &row) const;
     void       collect_sides(const FaceValues<dim> &prescribed);
     void       exchange_polynomials();
     void       exchange_rows(const std::vector<GlobalIndex> &wanted);
     LocalIndex column_of(const GlobalIndex number);
     unsigned   owner_of(const GlobalIndex number) const;
-    void add_map(const Side &side, const unsigned int of_polynomial, const LocalIndex cell, Map &map) const;
+    void       add_map(const Side &side, const unsigned int of_polynomial, Map &map) const;
     template <typename Visit>
     void visit_polynomial(const LocalIndex node, const Visit &visit) const;
     /// Calls visit(node, map) for the polynomials that a component of a cell's V G and H comes of, that of
@@ -139,9 +148,10 @@ namespace perideal
                                                     const unsigned int pattern,
                                                     Row               &row) const;
 
-    const CellPolynomials<dim>       &polynomials;
-    const FaceMoments<dim>           &face_moments;
-    std::vector<GlobalIndex>          first_of_rank, further;
+    const CellPolynomials<dim> &polynomials;
+    const FaceMoments<dim>     &face_moments;
+    std::vector<GlobalIndex>    first_of_rank, further;
+    /// Of columns that are not owned.
     std::map<GlobalIndex, LocalIndex> number_of;
     std::vector<std::size_t>          first_side;
     std::vector<Side>                 sides;
