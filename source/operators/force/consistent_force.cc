@@ -23,12 +23,6 @@ namespace perideal
   }
 
   template <int dim>
-  ExpandedLaw<dim> ConsistentForce<dim>::law_at(const LocalIndex i, const unsigned int p) const
-  {
-    return laws.at(i, points->offset_of(i, p));
-  }
-
-  template <int dim>
   typename SymmetricPairs<dim>::Pairs
   ConsistentForce<dim>::strain_of(const dealii::Tensor<2, dim> &gradient) const
   {
@@ -66,10 +60,19 @@ namespace perideal
     for (unsigned int d = 0; d < dim; ++d)
       deformation[d][d] += 1.;
     const HyperelasticLaw<dim> &law = laws.plain(i);
-    if (laws.expand_freely())
+    if (const PointModulus<dim> *modulus = laws.modulus(i))
+      points->turn_into_stress_at_once(
+        *moments, i, [&](const unsigned int, const PointTensor<dim, Lanes> &gradient) {
+          PointTensor<dim, Lanes> F = gradient, P;
+          for (unsigned int d = 0; d < dim; ++d)
+            F.entry[d][d] += 1.;
+          add_product(F, modulus->stress(green_strain(gradient)), P);
+          return P;
+        });
+    else if (laws.expand_freely())
       points->turn_into_stress(
         *moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-          return law_at(i, p).stress(gradient);
+          return laws.at(i, points->offset_of(i, p)).stress(gradient);
         });
     else
       points->turn_into_stress(*moments, i, [&](const unsigned int, const dealii::Tensor<2, dim> &gradient) {
@@ -132,7 +135,7 @@ namespace perideal
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       if (const double of_point = points->weight(i); of_point != 0.)
         points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-          result += of_point * law_at(i, p).energy(gradient);
+          result += of_point * laws.at(i, points->offset_of(i, p)).energy(gradient);
         });
     return dealii::Utilities::MPI::sum(result, families->communicator);
   }

@@ -16,48 +16,33 @@ namespace perideal
     , bonds(bonds)
     , points(force.cell_points())
     , bond_stress(families.n_owned())
-    , states(families.n_owned())
+    , changes(families.n_owned())
     , modulus_of(families.n_owned())
   {
+    const LawsOfNodes<dim> &laws = force.laws_of_nodes();
     force.evaluate();
     of_bonds = bonds->linearise();
     deformations.resize(dim * families.n_local(), NodeRecord{});
-    // That of all points of a cell; null where they have each their own.
-    const auto constant_modulus = [&](const LocalIndex i) {
-      const auto *modulus = force.law_at(i, 0).constant_modulus();
-      for (unsigned int p = 1; p < CellPoints<dim>::n; ++p)
-        if (force.law_at(i, p).constant_modulus() != modulus)
-          modulus = nullptr;
-      return modulus;
-    };
-    std::map<const dealii::SymmetricTensor<4, dim> *, std::size_t> constant;
+    std::map<const PointModulus<dim> *, std::uint32_t> number;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (const auto *modulus = constant_modulus(i);
-          modulus != nullptr && constant.emplace(modulus, moduli.size()).second)
-        moduli.push_back(pack(*modulus));
-    n_constant = moduli.size();
+      if (const auto *modulus = laws.modulus(i);
+          modulus != nullptr && number.emplace(modulus, moduli.size()).second)
+        moduli.push_back(*modulus);
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
         add_columns<dim>(dealii::unit_symmetric_tensor<dim>(), deformations.data() + dim * i);
         add_columns(to_tensor<dim>(moments->gradient(i)), deformations.data() + dim * i);
-        bond_stress[i]   = bonds->stress(i);
-        const auto known = constant.find(constant_modulus(i));
-        modulus_of[i]    = known != constant.end() ? known->second : moduli.size();
+        bond_stress[i] = bonds->stress(i);
+        if (const auto *modulus = laws.modulus(i))
+          {
+            modulus_of[i] = number.at(modulus);
+            keep_changes(i);
+            continue;
+          }
+        modulus_of[i] = moduli.size() + of_other_laws.size();
+        of_other_laws.emplace_back();
         points->visit(*moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-          const auto law   = force.law_at(i, p);
-          Point     &point = states[i][p];
-          const auto unit  = dealii::unit_symmetric_tensor<dim>();
-          const auto F     = gradient + dealii::Tensor<2, dim>(unit);
-          // The inverse is not asked for where S follows from the strain: a cell may be flat.
-          const auto S = known != constant.end() ?
-                           *known->first * (0.5 * (symmetrize(transpose(F) * F) - unit)) :
-                           symmetrize(invert(F) * law.stress(gradient));
-          for (unsigned int e = 0; e < dim * dim; ++e)
-            point.gradient[e] = gradient[e / dim][e % dim];
-          for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
-            point.stress[q] = S[Symmetric::axes(q).first][Symmetric::axes(q).second];
-          if (known == constant.end())
-            moduli.push_back(pack(law, gradient));
+          of_other_laws.back().push_back(make_point(laws.at(i, points->offset_of(i, p)), gradient));
         });
       }
     std::vector<double> buffer;
@@ -65,29 +50,26 @@ namespace perideal
   }
 
   template <int dim>
-  typename DeformedCells<dim>::Modulus
-  DeformedCells<dim>::pack(const dealii::SymmetricTensor<4, dim> &modulus)
+  void DeformedCells<dim>::keep_changes(const LocalIndex i)
   {
-    Modulus result;
-    auto    next = result.begin();
-    for (unsigned int r = 0; r < Symmetric::n_pairs; ++r)
-      for (unsigned int c = 0; c <= r; ++c)
+    const PointLanes<dim> at_once = PointLanes<dim>(points->offsets(i));
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int l = 0; l < dim; ++l)
         {
-          const auto [a, b] = Symmetric::axes(r);
-          const auto [k, l] = Symmetric::axes(c);
-          *next++           = modulus[a][b][k][l];
+          const Lanes change = at_once.above_mean(
+            [&](const unsigned int m) { return moments->moment(i)[dim * m + l].value[a]; });
+          for (unsigned int k = 0; k < dim; ++k)
+            changes[i][dim * (dim * a + l) + k] = static_cast<float>(change[k]);
         }
-    return result;
   }
 
   template <int dim>
-  typename DeformedCells<dim>::Modulus DeformedCells<dim>::pack(const HyperelasticLaw<dim>   &law,
-                                                                const dealii::Tensor<2, dim> &gradient)
+  typename DeformedCells<dim>::Point DeformedCells<dim>::make_point(const HyperelasticLaw<dim>   &law,
+                                                                    const dealii::Tensor<2, dim> &gradient)
   {
     // dS/dE = F^-1 (dP/dF - I S) F^-T on the first index of each pair.
-    const dealii::Tensor<2, dim> inverse =
-      invert(gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>()));
-    const dealii::Tensor<2, dim> S = inverse * law.stress(gradient);
+    const dealii::Tensor<2, dim> F = gradient + dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+    const dealii::Tensor<2, dim> inverse = invert(F), S = inverse * law.stress(gradient);
     dealii::Tensor<4, dim>       A = law.tangent(gradient);
     for (int i = 0; i < dim; ++i)
       for (int J = 0; J < dim; ++J)
@@ -105,51 +87,51 @@ namespace perideal
                   sum += inverse[I][i] * A[i][J][k][L] * inverse[K][k];
               modulus[I][J][K][L] = sum;
             }
-    return pack(modulus);
+    Point result{{}, {}, PointModulus<dim>(modulus)};
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        result.deformation.entry[k][l] = F[k][l];
+    for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
+      {
+        const auto [a, b]     = Symmetric::axes(q);
+        result.stress.pair[q] = 0.5 * (S[a][b] + S[b][a]);
+      }
+    return result;
   }
 
   template <int dim>
-  dealii::Tensor<2, dim> DeformedCells<dim>::change_of_stress(const LocalIndex              i,
-                                                              const unsigned int            p,
-                                                              const dealii::Tensor<2, dim> &gradient) const
+  template <typename Number>
+  PointTensor<dim, Number> DeformedCells<dim>::change_of_stress(const PointModulus<dim>        &modulus,
+                                                                const PointTensor<dim, Number> &deformation,
+                                                                const PointPairs<dim, Number>  &stress,
+                                                                const PointTensor<dim, Number> &change)
   {
-    const Point           &point = states[i][p];
-    dealii::Tensor<2, dim> F;
-    for (unsigned int k = 0; k < dim; ++k)
-      for (unsigned int l = 0; l < dim; ++l)
-        F[k][l] = (k == l ? 1. : 0.) + point.gradient[dim * k + l];
-    const std::size_t number = modulus_of[i] + (modulus_of[i] < n_constant ? 0 : p);
-    const double     *entry  = moduli[number].data();
-    Pairs             strain, stress = {};
-    for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
-      {
-        const auto [a, b] = Symmetric::axes(q);
-        double sum        = 0;
-        for (int k = 0; k < dim; ++k)
-          sum += a == b ? F[k][a] * gradient[k][a] : F[k][a] * gradient[k][b] + F[k][b] * gradient[k][a];
-        strain[q] = sum;
-      }
-    for (unsigned int r = 0; r < Symmetric::n_pairs; ++r)
-      {
-        for (unsigned int c = 0; c < r; ++c, ++entry)
-          {
-            stress[r] += *entry * strain[c];
-            stress[c] += *entry * strain[r];
-          }
-        stress[r] += *entry++ * strain[r];
-      }
-    dealii::Tensor<2, dim> result;
-    for (unsigned int q = 0; q < Symmetric::n_pairs; ++q)
-      {
-        const auto [a, b] = Symmetric::axes(q);
-        for (int k = 0; k < dim; ++k)
-          {
-            result[k][b] += F[k][a] * stress[q] + gradient[k][a] * point.stress[q];
-            if (a != b)
-              result[k][a] += F[k][b] * stress[q] + gradient[k][b] * point.stress[q];
-          }
-      }
+    PointTensor<dim, Number> result;
+    add_product(deformation, modulus.stress(change_of_strain(deformation, change)), result);
+    add_product(change, stress, result);
     return result;
+  }
+
+  template <int dim>
+  void DeformedCells<dim>::turn_into_stress(const LocalIndex i, const PointModulus<dim> &modulus) const
+  {
+    PointTensor<dim, Lanes> F[2];
+    PointLanes<dim>::combine(
+      [&](const unsigned int a, const unsigned int l) { return deformations[dim * i + l].value[a]; },
+      [&](const unsigned int a, const unsigned int l) {
+        Lanes result;
+        load(result, changes[i].data() + dim * (dim * a + l));
+        return result;
+      },
+      F[0],
+      F[1]);
+    points->turn_into_stress_at_once(
+      *moments, i, [&](const unsigned int side, const PointTensor<dim, Lanes> &change) {
+        PointTensor<dim, Lanes> gradient = F[side];
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient.entry[d][d] -= 1.;
+        return change_of_stress(modulus, F[side], modulus.stress(green_strain(gradient)), change);
+      });
   }
 
   template <int dim>
@@ -175,13 +157,57 @@ namespace perideal
     for (LocalIndex i = 0; i < moments->n_owned(); ++i)
       {
         const auto change = to_tensor<dim>(moments->gradient(i));
-        points->turn_into_stress(
-          *moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
-            return change_of_stress(i, p, gradient);
-          });
+        if (modulus_of[i] < moduli.size())
+          turn_into_stress(i, moduli[modulus_of[i]]);
+        else
+          {
+            const Points &states = of_other_laws[modulus_of[i] - moduli.size()];
+            points->turn_into_stress(
+              *moments, i, [&](const unsigned int p, const dealii::Tensor<2, dim> &gradient) {
+                return change_of_stress(states[p], gradient);
+              });
+          }
         add_columns<dim>(deformation(i) * bonds->stress(i) + change * bond_stress[i], moments->gradient(i));
         moments->force(i) = bonds->force(i);
       }
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> DeformedCells<dim>::change_of_stress(const Point                  &point,
+                                                              const dealii::Tensor<2, dim> &gradient)
+  {
+    PointTensor<dim, double> change;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        change.entry[k][l] = gradient[k][l];
+    const auto             stress = change_of_stress(point.modulus, point.deformation, point.stress, change);
+    dealii::Tensor<2, dim> result;
+    for (unsigned int k = 0; k < dim; ++k)
+      for (unsigned int l = 0; l < dim; ++l)
+        result[k][l] = stress.entry[k][l];
+    return result;
+  }
+
+  template <int dim>
+  typename DeformedCells<dim>::Points DeformedCells<dim>::points_of(const LocalIndex i) const
+  {
+    if (modulus_of[i] >= moduli.size())
+      return of_other_laws[modulus_of[i] - moduli.size()];
+    const PointModulus<dim> &modulus = moduli[modulus_of[i]];
+    Points                   result;
+    for (unsigned int p = 0; p < CellPoints<dim>::n; ++p)
+      {
+        PointTensor<dim, double> F, G;
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int l = 0; l < dim; ++l)
+            {
+              const double change = changes[i][dim * (dim * a + l) + p / 2];
+              F.entry[a][l]       = deformations[dim * i + l].value[a] + (p % 2 == 0 ? change : -change);
+              G.entry[a][l]       = F.entry[a][l] - (a == l ? 1. : 0.);
+            }
+        result.push_back({F, modulus.stress(green_strain(G)), modulus});
+      }
+    return result;
   }
 
   template <int dim>
@@ -200,13 +226,14 @@ namespace perideal
         result += sign * q[p / 2][n] * moment[n];
       return result;
     };
+    const Points           states = points_of(i);
     dealii::Tensor<2, dim> result;
     for (unsigned int p = 0; p < CellPoints<dim>::n; ++p)
       for (unsigned int b = 0; b < dim; ++b)
         {
           dealii::Tensor<2, dim> gradient;
           gradient[b]       = at_point(m, b, p);
-          const auto stress = points->weight(i) * change_of_stress(i, p, gradient);
+          const auto stress = points->weight(i) * change_of_stress(states[p], gradient);
           for (unsigned int a = 0; a < dim; ++a)
             result[a][b] += stress[a] * at_point(k, a, p);
         }
@@ -227,8 +254,9 @@ namespace perideal
   template <int dim>
   std::size_t DeformedCells<dim>::memory_consumption() const
   {
-    return states.size() * sizeof(states[0]) + moduli.size() * sizeof(moduli[0]) +
-           modulus_of.size() * sizeof(std::size_t) + bond_stress.size() * sizeof(bond_stress[0]) +
+    return changes.size() * sizeof(changes[0]) + moduli.size() * sizeof(moduli[0]) +
+           modulus_of.size() * sizeof(std::uint32_t) + bond_stress.size() * sizeof(bond_stress[0]) +
+           of_other_laws.size() * (sizeof(Points) + CellPoints<dim>::n * sizeof(Point)) +
            (deformations.size() + of_bonds.position.size()) * sizeof(NodeRecord) +
            of_bonds.tension.size() * sizeof(double);
   }

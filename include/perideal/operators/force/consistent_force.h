@@ -65,9 +65,7 @@ namespace perideal
     bool is_linear() const { return has_small_strain; }
 
     const std::shared_ptr<const CellPoints<dim>> &cell_points() const { return points; }
-
-    /// The law at a point of an owned node's cell.
-    ExpandedLaw<dim> law_at(const LocalIndex i, const unsigned int p) const;
+    const LawsOfNodes<dim>                       &laws_of_nodes() const { return laws; }
 
     /// From now on cells expand freely by what they have then.
     /// @param laws_in_space of materials in plane strain

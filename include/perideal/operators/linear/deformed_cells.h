@@ -6,6 +6,7 @@
 #include <perideal/operators/weights/gradient_rows.h>
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace perideal
    * Of the law it keeps dS/dE, and not dP/dF, of which two thirds are geometry:
    *
    *     dP_p = F_p (dS/dE : sym(F_p^T dF_p)) + dF_p S_p.
+   *
+   * Where dS/dE is the same at every strain, all else is found from the gradient of the cell and its moment,
+   * at all points at once.
    */
   template <int dim>
   class DeformedCells
@@ -59,35 +63,45 @@ namespace perideal
   private:
     using Symmetric = SymmetricPairs<dim>;
     using Pairs     = typename Symmetric::Pairs;
-    /// dS/dE as a symmetric matrix on strain pairs, its lower triangle by rows [Pa].
-    using Modulus = std::array<double, Symmetric::n_pairs *(Symmetric::n_pairs + 1) / 2>;
-    /// F - I, row by row, and S [Pa] at a point of a cell, in single precision: what that loses is far below
-    /// the strain's share of the tangent.
+    /// What a law has at a point: F, S [Pa] and dS/dE.
     struct Point
     {
-      std::array<float, dim * dim>          gradient;
-      std::array<float, Symmetric::n_pairs> stress;
+      PointTensor<dim, double> deformation;
+      PointPairs<dim, double>  stress;
+      PointModulus<dim>        modulus;
     };
+    using Points = std::vector<Point>;
 
-    /// The modulus of a law at a point.
-    static Modulus pack(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &gradient);
-    static Modulus pack(const dealii::SymmetricTensor<4, dim> &modulus);
-    /// dP at a point of a cell under the change of the gradient there.
-    dealii::Tensor<2, dim>
-    change_of_stress(const LocalIndex i, const unsigned int p, const dealii::Tensor<2, dim> &gradient) const;
-
-    std::shared_ptr<const GradientMoments<dim>>        moments;
-    std::shared_ptr<ConsistentBonds<dim>>              bonds;
-    std::shared_ptr<const CellPoints<dim>>             points;
-    typename ConsistentBonds<dim>::Linearisation       of_bonds;
-    dealii::AlignedVector<NodeRecord>                  deformations;
-    std::vector<dealii::SymmetricTensor<2, dim>>       bond_stress;
-    std::vector<std::array<Point, CellPoints<dim>::n>> states;
-    /// The moduli that are the same at all points of a material's cells, then those of the points of others.
-    std::vector<Modulus> moduli;
-    std::size_t          n_constant = 0;
-    /// By owned node, that of the first point.
-    std::vector<std::size_t> modulus_of;
+    /// Keeps by what the gradients at the points of a cell are above the mean.
+    void         keep_changes(const LocalIndex i);
+    static Point make_point(const HyperelasticLaw<dim> &law, const dealii::Tensor<2, dim> &gradient);
+    /// dP under the change of the gradient at one point, or at some at once.
+    template <typename Number>
+    static PointTensor<dim, Number> change_of_stress(const PointModulus<dim>        &modulus,
+                                                     const PointTensor<dim, Number> &deformation,
+                                                     const PointPairs<dim, Number>  &stress,
+                                                     const PointTensor<dim, Number> &change);
+    static dealii::Tensor<2, dim>   change_of_stress(const Point                  &point,
+                                                     const dealii::Tensor<2, dim> &gradient);
+    /// The same of all points of a cell, in the places of gradient and moment.
+    void turn_into_stress(const LocalIndex i, const PointModulus<dim> &modulus) const;
+    /// The points of a cell as they are.
+    Points                                       points_of(const LocalIndex i) const;
+    std::shared_ptr<const GradientMoments<dim>>  moments;
+    std::shared_ptr<ConsistentBonds<dim>>        bonds;
+    std::shared_ptr<const CellPoints<dim>>       points;
+    typename ConsistentBonds<dim>::Linearisation of_bonds;
+    dealii::AlignedVector<NodeRecord>            deformations;
+    std::vector<dealii::SymmetricTensor<2, dim>> bond_stress;
+    /// By what the gradients at the points of owned nodes' cells are above the mean, by (a, l, axis), in
+    /// single precision: what that loses is far below the strain's share of the tangent. Four are read at
+    /// once.
+    std::vector<std::array<float, dim * dim * dim + 4 - dim>> changes;
+    /// Of laws with one modulus, by material; then by owned node its number there, or behind them where its
+    /// points stand.
+    std::vector<PointModulus<dim>> moduli;
+    std::vector<std::uint32_t>     modulus_of;
+    std::vector<Points>            of_other_laws;
   };
 } // namespace perideal
 

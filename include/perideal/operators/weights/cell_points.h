@@ -5,6 +5,7 @@
 #include <perideal/base/symmetric_pairs.h>
 #include <perideal/operators/weights/cell_shares.h>
 #include <perideal/operators/weights/gradient_moments.h>
+#include <perideal/operators/weights/point_lanes.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -129,6 +130,23 @@ namespace perideal
             on_moment += q[k][m] * difference[k];
           write(on_moment, moments.moment(i) + dim * m);
         }
+    }
+
+    /// The same with all points on one side of the centroid at once: side 0 is the positive one.
+    /// @param stress_of P [Pa] by side and gradient there
+    template <typename StressOf>
+    PERIDEAL_INLINE void turn_into_stress_at_once(const GradientMoments<dim> &moments,
+                                                  const LocalIndex            i,
+                                                  const StressOf             &stress_of) const
+    {
+      const PointLanes<dim>   at_once(offsets(i));
+      PointTensor<dim, Lanes> gradient[2];
+      at_once.at_points(moments.gradient(i), moments.moment(i), gradient[0], gradient[1]);
+      at_once.sum(stress_of(0, gradient[0]),
+                  stress_of(1, gradient[1]),
+                  weight(i),
+                  moments.gradient(i),
+                  moments.moment(i));
     }
 
     std::size_t memory_consumption() const

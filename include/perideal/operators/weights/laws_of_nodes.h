@@ -4,10 +4,13 @@
 
 #include <perideal/boundary/cell_expansion.h>
 #include <perideal/neighbourhood/families.h>
+#include <perideal/operators/weights/point_lanes.h>
 #include <perideal/parameters/expanded_law.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace perideal
@@ -19,11 +22,20 @@ namespace perideal
   public:
     /// @param laws by material id; every material of the nodes is listed
     LawsOfNodes(const Families<dim> &families, const LawsByMaterial<dim> &laws)
-      : laws(laws)
     {
+      for (const auto &[id, law] : laws)
+        {
+          OfMaterial &of_material = this->laws[id];
+          of_material.law         = law;
+          if (const auto *modulus = law->constant_modulus())
+            of_material.modulus.emplace(*modulus);
+        }
       for (LocalIndex i = 0; i < families.n_owned(); ++i)
-        of_node.push_back(this->laws.at(families.material[i]).get());
+        of_node.push_back(&this->laws.at(families.material[i]));
     }
+
+    LawsOfNodes(const LawsOfNodes &)            = delete;
+    LawsOfNodes &operator=(const LawsOfNodes &) = delete;
 
     /// From now on cells expand freely by what they have then.
     /// @param laws_in_space of materials in plane strain
@@ -40,12 +52,19 @@ namespace perideal
     /// Whether all are linear and strains small.
     bool are_linear() const
     {
-      return std::all_of(laws.begin(), laws.end(), [](const auto &law) { return law.second->is_linear(); });
+      return std::all_of(laws.begin(), laws.end(), [](const auto &of) { return of.second.law->is_linear(); });
     }
 
     /// Whether cells may expand; else plain() is all that the loops need.
     bool                        expand_freely() const { return cells != nullptr; }
-    const HyperelasticLaw<dim> &plain(const LocalIndex i) const { return *of_node[i]; }
+    const HyperelasticLaw<dim> &plain(const LocalIndex i) const { return *of_node[i]->law; }
+
+    /// dS/dE everywhere in the cell of a node, where it is the same at every strain; else null.
+    const PointModulus<dim> *modulus(const LocalIndex i) const
+    {
+      const bool expands = cells && (cells->mean[i] != 0. || cells->moment[i].norm_square() != 0.);
+      return of_node[i]->modulus && !expands ? &*of_node[i]->modulus : nullptr;
+    }
 
     /// That of the mean expansion of the cell.
     ExpandedLaw<dim> mean(const LocalIndex i) const { return with(i, cells ? cells->mean[i] : 0.); }
@@ -66,14 +85,20 @@ namespace perideal
     ExpandedLaw<dim> with(const LocalIndex i, const double expansion) const
     {
       return ExpandedLaw<dim>(
-        *of_node[i], expansion, in_space_of_node.empty() ? nullptr : in_space_of_node[i]);
+        *of_node[i]->law, expansion, in_space_of_node.empty() ? nullptr : in_space_of_node[i]);
     }
 
-    LawsByMaterial<dim>                       laws;
-    LawsByMaterial<3>                         in_space;
-    std::vector<const HyperelasticLaw<dim> *> of_node;
-    std::vector<const HyperelasticLaw<3> *>   in_space_of_node;
-    std::shared_ptr<const CellExpansion<dim>> cells;
+    struct OfMaterial
+    {
+      std::shared_ptr<const HyperelasticLaw<dim>> law;
+      std::optional<PointModulus<dim>>            modulus;
+    };
+
+    std::map<dealii::types::material_id, OfMaterial> laws;
+    LawsByMaterial<3>                                in_space;
+    std::vector<const OfMaterial *>                  of_node;
+    std::vector<const HyperelasticLaw<3> *>          in_space_of_node;
+    std::shared_ptr<const CellExpansion<dim>>        cells;
   };
 } // namespace perideal
 
