@@ -59,6 +59,23 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<bool> Families<dim>::with_all_members(const std::vector<bool> &chosen) const
+  {
+    NodalVector marks(make_partitioner(1));
+    for (LocalIndex i = 0; i < n_owned(); ++i)
+      marks.local_element(i) = chosen[i] ? 1. : 0.;
+    visit_members(chosen, [&](const LocalIndex i, const LocalIndex j) {
+      if (i < n_owned() && !chosen[j])
+        marks.local_element(i) = 0.;
+    });
+    marks.update_ghost_values();
+    std::vector<bool> result(n_local());
+    for (LocalIndex i = 0; i < n_local(); ++i)
+      result[i] = marks.local_element(i) > 0;
+    return result;
+  }
+
+  template <int dim>
   std::shared_ptr<const Families<dim>> Families<dim>::whole_families(const std::vector<bool> &chosen) const
   {
     // Of the pairs with a chosen node, the rows of the owned ends.

@@ -8,6 +8,7 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace perideal
@@ -26,6 +27,7 @@ namespace perideal
     collect_cells_at_vertices(mesh);
     if (layers == GhostLayers::two || mesh.material_ids.size() > 1)
       exchange_second_layer(mesh, layers);
+    sort_ghosts();
     if (layers == GhostLayers::two)
       {
         around.owned.resize(n_owned_nodes);
@@ -137,14 +139,52 @@ namespace perideal
         auto &of_ghost = around.ghost[list.first];
         for (const Ghost &ghost : list.second)
           of_ghost.push_back(add_ghost(ghost));
-        std::sort(of_ghost.begin(), of_ghost.end());
       }
   }
 
   template <int dim>
-  void CellGraph<dim>::forget_layers()
+  void CellGraph<dim>::sort_ghosts()
+  {
+    std::vector<LocalIndex> order(ghost_number.size()), place(n_local());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](const LocalIndex a, const LocalIndex b) {
+      return ghost_number[a] < ghost_number[b];
+    });
+    std::iota(place.begin(), place.end(), 0);
+    for (LocalIndex g = 0; g < order.size(); ++g)
+      place[n_owned_nodes + order[g]] = n_owned_nodes + g;
+    const auto reorder = [&](auto &list, const LocalIndex first) {
+      const auto before = list;
+      for (LocalIndex g = 0; g < order.size(); ++g)
+        list[first + g] = before[first + order[g]];
+    };
+    reorder(ghost_number, 0);
+    reorder(position, n_owned_nodes);
+    reorder(material, n_owned_nodes);
+    const auto renumber = [&](std::vector<LocalIndex> &nodes) {
+      for (LocalIndex &node : nodes)
+        // Cells of other ranks that are no ghosts have none.
+        if (node < n_local())
+          node = place[node];
+    };
+    renumber(node_of_cell);
+    renumber(cells);
+    std::map<LocalIndex, std::vector<LocalIndex>> of_ghosts;
+    for (auto &[node, list] : around.ghost)
+      {
+        renumber(list);
+        std::sort(list.begin(), list.end());
+        of_ghosts[place[node]] = std::move(list);
+      }
+    around.ghost = std::move(of_ghosts);
+  }
+
+  template <int dim>
+  void CellGraph<dim>::forget_neighbours()
   {
     around = {};
+    first  = {};
+    cells  = {};
   }
 
   template <int dim>

@@ -299,7 +299,7 @@ namespace perideal
         builder.add(cell_of_node[i]);
       }
     coefficient.shrink_to_fit();
-    cells.forget_layers();
+    cells.forget_neighbours();
   }
 
   template <int dim>

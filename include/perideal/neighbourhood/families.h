@@ -58,6 +58,10 @@ namespace perideal
     /// @param chosen by local node; of ghosts their owners decide
     std::vector<bool> with_members(const std::vector<bool> &chosen) const;
 
+    /// Returns those of the chosen nodes of which all members are chosen, by local node. Collective.
+    /// @param chosen by local node, of all ranks alike
+    std::vector<bool> with_all_members(const std::vector<bool> &chosen) const;
+
     /// Whether all members of an owned node are listed.
     bool is_whole(const LocalIndex i) const
     {

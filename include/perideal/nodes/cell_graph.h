@@ -28,8 +28,8 @@ namespace perideal
    * Knows the nodes of this rank's cells and of the cells around them, and which of
    * them meet at each vertex of the mesh.
    *
-   * Local numbers: owned nodes first, as in the cloud, then ghosts. They differ
-   * from those of Families, whose halo follows the horizon.
+   * Local numbers: owned nodes first, as in the cloud, then ghosts in the order of their global numbers, as
+   * in layouts of fields. They differ from those of Families, whose halo follows the horizon.
    */
   template <int dim>
   class CellGraph
@@ -67,8 +67,8 @@ namespace perideal
       return node < n_owned_nodes ? around.owned[node] : around.ghost.at(node);
     }
 
-    /// Frees what nodes_around() needs.
-    void forget_layers();
+    /// Frees what cells_around(), nodes_around() and add_cells_at() need.
+    void forget_neighbours();
 
     /// The values of all local nodes from those of the owned ones, for types made of
     /// doubles such as tensors. Collective.
@@ -80,14 +80,14 @@ namespace perideal
     template <typename Value>
     std::vector<Value> sum_to_owners(const std::vector<Value> &local) const;
 
-    /// Layout of a field with @p n_components values a node; ghosts as here, ascending.
+    /// Layout of a field with @p n_components values a node; ghosts as here.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
     make_partitioner(const unsigned int n_components) const;
 
     /// Centroids [m] and materials of local nodes, ghosts included.
     std::vector<dealii::Point<dim>>         position;
     std::vector<dealii::types::material_id> material;
-    /// Global numbers of the ghosts.
+    /// Global numbers of the ghosts, ascending.
     std::vector<GlobalIndex> ghost_number;
 
     MPI_Comm communicator;
@@ -103,6 +103,7 @@ namespace perideal
     void       exchange_ghosts(const Mesh<dim> &mesh);
     void       collect_cells_at_vertices(const Mesh<dim> &mesh);
     void       exchange_second_layer(const Mesh<dim> &mesh, const GhostLayers layers);
+    void       sort_ghosts();
 
     LocalIndex              n_owned_nodes;
     GlobalIndex             first_global, n_global;
@@ -130,10 +131,6 @@ namespace perideal
     const auto          layout = make_partitioner(n);
     std::vector<double> buffer;
     update_ghosts(*layout, reinterpret_cast<double *>(owned.data()), buffer);
-    // The layout has ghosts in the order of their numbers.
-    const std::vector<Value> received(owned.begin() + n_owned_nodes, owned.end());
-    for (LocalIndex i = n_owned_nodes; i < n_local(); ++i)
-      owned[i] = received[layout->global_to_local(n * global_number(i)) / n - n_owned_nodes];
     return owned;
   }
 

@@ -31,12 +31,6 @@ namespace perideal
       return of_bonds;
     }
 
-    std::vector<bool> opposite(std::vector<bool> nodes)
-    {
-      nodes.flip();
-      return nodes;
-    }
-
     /// Chooses needed nodes and, as all families are made again, half as many more at least than there were:
     /// however a zone grows, that takes some times what making the last ones takes. Collective.
     template <int dim>
@@ -155,7 +149,7 @@ namespace perideal
       }
     made->judge_bonds(judgement);
     bonds            = std::move(made);
-    making.is_inside = opposite(families->with_members(opposite(making.chosen)));
+    making.is_inside = families->with_all_members(making.chosen);
     making.seconds += clock.wall_time();
   }
 

@@ -90,48 +90,26 @@ namespace perideal
     const GlobalIndex     n_all = dealii::Utilities::MPI::sum<GlobalIndex>(n_owned_cells, communicator);
     // A rank may have no cells.
     const GlobalIndex own_first = n_owned_cells > 0 ? graph.global_number(0) : 0;
-    // Ghosts of a list of local numbers of the graph, in the order of a partitioner.
-    const auto ghosts_of = [&](const std::set<LocalIndex> &nodes) {
-      std::vector<std::pair<GlobalIndex, LocalIndex>> result;
-      for (const LocalIndex node : nodes)
-        result.emplace_back(graph.global_number(node), node);
-      std::sort(result.begin(), result.end());
-      return result;
-    };
-    const auto layout = [&](const auto &ghosts, const unsigned int n_records) {
-      std::vector<GlobalIndex> numbers;
-      for (const auto &ghost : ghosts)
-        numbers.push_back(ghost.first);
-      return make_node_partitioner(own_first, n_owned_cells, n_all, numbers, 4 * n_records, communicator);
-    };
+    of_displacements            = graph.make_partitioner(4);
 
-    std::set<LocalIndex> read;
-    for (const LocalIndex k : polynomials->columns())
-      if (k >= n_owned_cells)
-        read.insert(k);
-    const auto              columns = ghosts_of(read);
-    std::vector<LocalIndex> place(graph.n_local() - n_owned_cells, FaceMoments<dim>::none);
-    for (std::size_t g = 0; g < columns.size(); ++g)
-      place[columns[g].second - n_owned_cells] = n_owned_cells + g;
-    column = polynomials->columns();
-    for (LocalIndex &k : column)
-      if (k >= n_owned_cells)
-        k = place[k - n_owned_cells];
-    of_displacements = layout(columns, 1);
-
+    // In the order of the graph, which is that of layouts.
     std::set<LocalIndex> beyond;
     for (const Face &face : face_moments->faces())
       for (const LocalIndex node : face.node)
         if (node != FaceMoments<dim>::none && node >= n_owned_cells)
           beyond.insert(node);
-    const auto cells = ghosts_of(beyond);
+    std::vector<GlobalIndex> numbers;
     polynomial_of_ghost.assign(graph.n_local() - n_owned_cells, FaceMoments<dim>::none);
-    for (std::size_t g = 0; g < cells.size(); ++g)
-      polynomial_of_ghost[cells[g].second - n_owned_cells] = n_owned_cells + g;
-    of_polynomials = layout(cells, n_coefficients);
+    for (const LocalIndex node : beyond)
+      {
+        polynomial_of_ghost[node - n_owned_cells] = n_owned_cells + numbers.size();
+        numbers.push_back(graph.global_number(node));
+      }
+    of_polynomials =
+      make_node_partitioner(own_first, n_owned_cells, n_all, numbers, 4 * n_coefficients, communicator);
 
-    work.displacement.resize(n_owned_cells + columns.size(), NodeRecord{});
-    work.polynomial.resize(n_coefficients * (n_owned_cells + cells.size()), NodeRecord{});
+    work.displacement.resize(graph.n_local(), NodeRecord{});
+    work.polynomial.resize(n_coefficients * (n_owned_cells + numbers.size()), NodeRecord{});
   }
 
   template <int dim>
@@ -234,7 +212,7 @@ namespace perideal
   {
     using dealii::MemoryConsumption::memory_consumption;
     return polynomials->memory_consumption() + face_moments->memory_consumption() +
-           memory_consumption(column) + aligned.size() * sizeof(AlignedFace<dim>) +
+           aligned.size() * sizeof(AlignedFace<dim>) +
            (work.displacement.size() + work.polynomial.size() + work.gradient.size() + work.moment.size() +
             work.value_force.size() + work.trace_force.size()) *
              sizeof(NodeRecord);

@@ -29,7 +29,7 @@ namespace perideal
     update_ghosts(*of_displacements, work.displacement, work.temporary);
     constexpr unsigned int n_terms = Monomials<dim>::n_terms;
     const NodeRecord      *u       = work.displacement.data();
-    const auto            &first   = polynomials->first();
+    const auto            &first = polynomials->first(), &columns = polynomials->columns();
     const auto            &closure = polynomials->closure();
     auto                   closed  = closure.cells().begin();
     for (LocalIndex i = 0; i < n_owned_cells; ++i)
@@ -39,7 +39,7 @@ namespace perideal
         const double *row        = polynomials->coefficients(i)->data();
         for (BondIndex k = first[i]; k < first[i + 1]; ++k, row += n_terms)
           {
-            const Lanes difference = lanes(u[column[k]]) - own;
+            const Lanes difference = lanes(u[columns[k]]) - own;
             for (unsigned int t = 0; t < n_terms; ++t)
               c[t] += row[t] * difference;
           }
@@ -84,9 +84,9 @@ namespace perideal
   template <int dim>
   void GradientMoments<dim>::spread_cell(const LocalIndex i, const std::size_t n) const
   {
-    constexpr unsigned int n_terms  = Monomials<dim>::n_terms;
-    NodeRecord            *f        = work.displacement.data();
-    const auto            &first    = polynomials->first();
+    constexpr unsigned int n_terms = Monomials<dim>::n_terms;
+    NodeRecord            *f       = work.displacement.data();
+    const auto            &first = polynomials->first(), &columns = polynomials->columns();
     const NodeRecord      *acting   = work.polynomial.data() + n_coefficients * i;
     const Lanes            on_value = lanes(acting[0]) + lanes(work.value_force[i]);
     const Lanes            on_trace = (2. * polynomials->volumes()[i]) * lanes(work.trace_force[i]);
@@ -105,7 +105,7 @@ namespace perideal
         Lanes sum = row[0] * c[0];
         for (unsigned int t = 1; t < n_terms; ++t)
           sum += row[t] * c[t];
-        lanes(f[column[k]]) += sum;
+        lanes(f[columns[k]]) += sum;
         own -= sum;
       }
     lanes(f[i]) += own;

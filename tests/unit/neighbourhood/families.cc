@@ -98,6 +98,27 @@ namespace
         for (LocalIndex j = 0; j < all.n_local(); ++j)
           EXPECT_EQ(all.are_members(i, j) && i != j, std::binary_search(all.begin(i), all.end(i), j));
       }
+    // Of half of the body, those that no bond joins to the other half.
+    double middle = 0;
+    for (LocalIndex i = 0; i < all.n_owned(); ++i)
+      middle += all.position[i][0];
+    middle = dealii::Utilities::MPI::sum(middle, MPI_COMM_WORLD) /
+             dealii::Utilities::MPI::sum(static_cast<double>(all.n_owned()), MPI_COMM_WORLD);
+    std::vector<bool> half(all.n_local());
+    for (LocalIndex i = 0; i < all.n_local(); ++i)
+      half[i] = all.position[i][0] < middle;
+    const auto   inside   = listed.with_all_members(half);
+    unsigned int n_halves = 0, n_inside = 0;
+    for (LocalIndex i = 0; i < all.n_owned(); ++i)
+      {
+        EXPECT_EQ(inside[i],
+                  half[i] && std::all_of(all.begin(i), all.end(i), [&](const auto j) { return half[j]; }));
+        n_halves += half[i];
+        n_inside += inside[i];
+      }
+    EXPECT_LT(dealii::Utilities::MPI::sum(n_inside, MPI_COMM_WORLD),
+              dealii::Utilities::MPI::sum(n_halves, MPI_COMM_WORLD));
+    EXPECT_GT(dealii::Utilities::MPI::sum(n_inside, MPI_COMM_WORLD), 0u);
     // All ranks have said the same of their ghosts.
     NodalVector marks(all.make_partitioner(1));
     for (LocalIndex i = 0; i < all.n_owned(); ++i)

@@ -37,7 +37,7 @@ namespace perideal
    * which is the mean of quadratic fields on any mesh. Body forces act on w_i; with tractions on v all of it
    * is exact for quadratic displacements.
    *
-   * Cells are numbered as their nodes, ghosts behind the owned ones.
+   * Cells are numbered as their nodes in the graph of the polynomials.
    */
   template <int dim>
   class GradientMoments
@@ -160,7 +160,6 @@ namespace perideal
     std::shared_ptr<const FaceValues<dim>>      prescribed;
 
     LocalIndex                                                 n_owned_cells;
-    std::vector<LocalIndex>                                    column;
     std::vector<LocalIndex>                                    polynomial_of_ghost;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> of_displacements, of_polynomials;
     /// By shape.
