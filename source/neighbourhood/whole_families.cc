@@ -103,9 +103,10 @@ namespace perideal
     return result;
   }
 
-#define PERIDEAL_INSTANTIATE_WHOLE(dim)                                                                       \
-  template std::vector<bool>                    Families<dim>::with_members(const std::vector<bool> &) const; \
-  template std::shared_ptr<const Families<dim>> Families<dim>::whole_families(const std::vector<bool> &)      \
+#define PERIDEAL_INSTANTIATE_WHOLE(dim)                                                                      \
+  template std::vector<bool> Families<dim>::with_members(const std::vector<bool> &) const;                   \
+  template std::vector<bool> Families<dim>::with_all_members(const std::vector<bool> &) const;               \
+  template std::shared_ptr<const Families<dim>> Families<dim>::whole_families(const std::vector<bool> &)     \
     const;
   PERIDEAL_INSTANTIATE_WHOLE(2)
   PERIDEAL_INSTANTIATE_WHOLE(3)
