@@ -246,26 +246,29 @@ namespace perideal
   template <int dim>
   std::vector<CornerValues<dim>> MeshPoints<dim>::mean(std::vector<CornerValues<dim>> values) const
   {
-    std::vector<CornerValues<dim>> result(cells->n_owned()), local = cells->with_ghosts(std::move(values));
-    const auto                     set = [&](const Group &group, const dealii::Tensor<1, dim> &value) {
+    auto       result = cells->with_ghosts(std::move(values));
+    const auto set    = [&](const Group &group, const dealii::Tensor<1, dim> &value) {
       for (const Corner &corner : group.corners)
-        if (corner.node < cells->n_owned())
-          result[corner.node][corner.corner] = value;
+        result[corner.node][corner.corner] = value;
     };
+    // In place: each corner is of one group.
     visit_groups([&](const unsigned int, const Group &group, const std::size_t) {
       dealii::Tensor<1, dim> sum;
       for (const Corner &corner : group.corners)
-        sum += local[corner.node][corner.corner];
+        sum += result[corner.node][corner.corner];
       set(group, sum / static_cast<double>(group.corners.size()));
     });
+    result.resize(cells->n_owned());
     // The edges on which vertices hang may end at vertices that hang on larger cells.
     for (unsigned int level = 1; is_uneven && level < mesh.triangulation.n_global_levels(); ++level)
       {
-        local = cells->with_ghosts(result);
+        const auto before = cells->with_ghosts(result);
+        result            = before;
         visit_groups([&](const unsigned int vertex, const Group &group, const std::size_t) {
           if (!group.larger.empty())
-            set(group, on_larger(group.larger.front(), vertex, local[group.larger.front()]));
+            set(group, on_larger(group.larger.front(), vertex, before[group.larger.front()]));
         });
+        result.resize(cells->n_owned());
       }
     return result;
   }
