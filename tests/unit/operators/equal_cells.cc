@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/boundary/boundary_faces.h>
 #include <perideal/operators/weights/gradient_moments.h>
+#include <perideal/operators/weights/gradient_rows.h>
 
 #include "bodies.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace perideal;
 
@@ -37,6 +41,45 @@ namespace
     GradientMoments<dim>                        moments;
   };
 
+  /// Cells of equal records have the same rows.
+  /// @return how many on this rank have one of a cell before
+  template <int dim>
+  unsigned int expect_equal_rows(const Cells<dim> &cells, const std::vector<double> &spacing)
+  {
+    using Row = typename GradientRows<dim>::Row;
+    const GradientRows<dim> rows(
+      *cells.polynomials, *cells.faces, cells.moments.prescribed_values(), std::vector<GlobalIndex>());
+    EqualRecords                     equal(true);
+    std::vector<EqualRecords::Entry> record;
+    std::vector<Row>                 known;
+    Row                              row, listed;
+    unsigned int                     result = 0;
+    for (LocalIndex i = 0; i < cells.moments.n_owned(); ++i)
+      {
+        rows.compute(i, row);
+        rows.list_columns(i, listed);
+        EXPECT_EQ(listed.column, row.column);
+        if (!equal.is_looking() || !rows.describe(i, record))
+          continue;
+        std::size_t &place = equal.place_of(record);
+        if (place == EqualRecords::none)
+          {
+            place = known.size();
+            known.push_back(row);
+            continue;
+          }
+        ++result;
+        const Row &like = known[place];
+        EXPECT_EQ(row.column.size(), like.column.size());
+        for (std::size_t k = 0; k < std::min(row.column.size(), like.column.size()); ++k)
+          {
+            EXPECT_LT((row.gradient_of(0)[k] - like.gradient_of(0)[k]).norm(), 1e-12 / spacing[i]);
+            EXPECT_LT((row.moment_of(0)[k] - like.moment_of(0)[k]).norm(), 1e-12 * std::pow(spacing[i], dim));
+          }
+      }
+    return result;
+  }
+
   template <int dim>
   void expect_as_without_sharing(const Mesh<dim> &mesh, const double least, const double most)
   {
@@ -49,10 +92,15 @@ namespace
     EXPECT_LE(share, most);
     if (least > 0)
       {
-        EXPECT_LT(20 * shared.faces->values().size(), alone.faces->values().size());
+        EXPECT_LT(20 * shared.faces->shapes().size(), alone.faces->shapes().size());
         EXPECT_LT(shared.moments.memory_consumption(), alone.moments.memory_consumption());
       }
 
+    const unsigned int n_equal = expect_equal_rows(shared, body.nodes.spacing);
+    if (least > 0 && body.nodes.size() > 400)
+      {
+        EXPECT_GT(n_equal, body.nodes.size() / 10);
+      }
     NodalVector u;
     u.reinit(body.families->make_partitioner(dim));
     for (LocalIndex i = 0; i < body.nodes.size(); ++i)
