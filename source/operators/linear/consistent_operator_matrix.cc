@@ -178,7 +178,9 @@ namespace perideal
   {
     if (deformed)
       {
-        visit([&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, row, k, m); });
+        const auto states = deformed->points_of(i);
+        visit(
+          [&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, states, row, k, m); });
         return;
       }
     CellEnergy<dim> energy{

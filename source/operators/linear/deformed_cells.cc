@@ -211,10 +211,8 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<2, dim> DeformedCells<dim>::block_of(const LocalIndex  i,
-                                                      const Row        &row,
-                                                      const std::size_t k,
-                                                      const std::size_t m) const
+  dealii::Tensor<2, dim> DeformedCells<dim>::block_of(
+    const LocalIndex i, const Points &states, const Row &row, const std::size_t k, const std::size_t m) const
   {
     const auto q = points->offsets(i);
     // The gradient at a point that one of a column's components makes.
@@ -226,7 +224,6 @@ namespace perideal
         result += sign * q[p / 2][n] * moment[n];
       return result;
     };
-    const Points           states = points_of(i);
     dealii::Tensor<2, dim> result;
     for (unsigned int p = 0; p < CellPoints<dim>::n; ++p)
       for (unsigned int b = 0; b < dim; ++b)

@@ -31,6 +31,14 @@ namespace perideal
   {
   public:
     using Row = typename GradientRows<dim>::Row;
+    /// What a law has at a point of a cell: F, S [Pa] and dS/dE.
+    struct Point
+    {
+      PointTensor<dim, double> deformation;
+      PointPairs<dim, double>  stress;
+      PointModulus<dim>        modulus;
+    };
+    using Points = std::vector<Point>;
 
     /// The state of the last compute() of the force. Collective.
     DeformedCells(const Families<dim>                               &families,
@@ -44,9 +52,15 @@ namespace perideal
     /// Puts the change of what acts on gradients, moments and values in their places.
     void turn_into_stress() const;
 
+    /// The points of an owned cell as they are.
+    Points points_of(const LocalIndex i) const;
     /// The block of two columns of a cell's row.
-    dealii::Tensor<2, dim>
-    block_of(const LocalIndex i, const Row &row, const std::size_t k, const std::size_t m) const;
+    /// @param states its points
+    dealii::Tensor<2, dim> block_of(const LocalIndex  i,
+                                    const Points     &states,
+                                    const Row        &row,
+                                    const std::size_t k,
+                                    const std::size_t m) const;
 
     /// The bond of an owned node with another local one in the deformed body [m].
     dealii::Tensor<1, dim> bond(const LocalIndex i, const LocalIndex j) const;
@@ -63,14 +77,6 @@ namespace perideal
   private:
     using Symmetric = SymmetricPairs<dim>;
     using Pairs     = typename Symmetric::Pairs;
-    /// What a law has at a point: F, S [Pa] and dS/dE.
-    struct Point
-    {
-      PointTensor<dim, double> deformation;
-      PointPairs<dim, double>  stress;
-      PointModulus<dim>        modulus;
-    };
-    using Points = std::vector<Point>;
 
     /// Keeps by what the gradients at the points of a cell are above the mean.
     void         keep_changes(const LocalIndex i);
@@ -85,8 +91,7 @@ namespace perideal
                                                      const dealii::Tensor<2, dim> &gradient);
     /// The same of all points of a cell, in the places of gradient and moment.
     void turn_into_stress(const LocalIndex i, const PointModulus<dim> &modulus) const;
-    /// The points of a cell as they are.
-    Points                                       points_of(const LocalIndex i) const;
+
     std::shared_ptr<const GradientMoments<dim>>  moments;
     std::shared_ptr<ConsistentBonds<dim>>        bonds;
     std::shared_ptr<const CellPoints<dim>>       points;
