@@ -132,8 +132,8 @@ namespace perideal
         }
     }
 
-    /// The same with all points on one side of the centroid at once: side 0 is the positive one.
-    /// @param stress_of P [Pa] by side and gradient there
+    /// The same with all points on one side of the centroid at once: stress_of(side, gradient) gives P [Pa]
+    /// there, side 0 being the positive one.
     template <typename StressOf>
     PERIDEAL_INLINE void turn_into_stress_at_once(const GradientMoments<dim> &moments,
                                                   const LocalIndex            i,

@@ -186,8 +186,7 @@ namespace perideal
     }
 
     /// Writes what acts on the gradient of the cell and its moments, lanes by component, of stresses at the
-    /// points.
-    /// @param weight volume of a point as far as it counts [m^3]
+    /// points: weight is the volume of a point as far as it counts [m^3].
     PERIDEAL_INLINE void sum(const Tensor &positive,
                              const Tensor &negative,
                              const double  weight,
