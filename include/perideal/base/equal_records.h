@@ -41,6 +41,10 @@ namespace perideal
       double value, tolerance;
     };
 
+    /// A number of something, of which each is on a line of its own of the lattice that values are looked up
+    /// on.
+    static Entry exactly(const std::size_t number) { return {static_cast<double>(number), 1e-7}; }
+
     /// @param looks whether records are looked for at all
     explicit EqualRecords(const bool looks)
       : looks(looks)

@@ -212,7 +212,7 @@ namespace perideal
         std::size_t *place = &own;
         if (of_equal.size() < most && equal.is_looking() && rows.describe(i, record))
           {
-            record.push_back({static_cast<double>(solid_of_node[i]), 0.5});
+            record.push_back(EqualRecords::exactly(solid_of_node[i]));
             record.push_back({bonds->share(i), 1e-14});
             place = &equal.place_of(record);
           }

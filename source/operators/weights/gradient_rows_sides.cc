@@ -52,7 +52,7 @@ namespace perideal
   bool GradientRows<dim>::describe(const LocalIndex i, std::vector<EqualRecords::Entry> &record) const
   {
     record.clear();
-    const auto add = [&](const std::size_t number) { record.push_back({static_cast<double>(number), 0.5}); };
+    const auto add = [&](const std::size_t number) { record.push_back(EqualRecords::exactly(number)); };
     const auto add_polynomial = [&](const LocalIndex node) {
       if (node >= polynomials.graph().n_owned() || directions_of(node).size() > 0)
         return false;

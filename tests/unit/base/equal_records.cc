@@ -50,3 +50,17 @@ TEST(EqualRecords, GivesUpWhereHardlyAnyAreEqual)
     many.place_of(record_of({std::sqrt(k % 100)}));
   EXPECT_TRUE(many.is_looking());
 }
+
+TEST(EqualRecords, NumbersAreToldApart)
+{
+  EqualRecords equal(true);
+  for (std::size_t n = 0; n < 1000; ++n)
+    {
+      const std::vector<EqualRecords::Entry> record = {EqualRecords::exactly(n),
+                                                       EqualRecords::exactly(1000000000 - n)};
+      EXPECT_EQ(equal.place_of(record), EqualRecords::none);
+      equal.place_of(record) = n;
+      EXPECT_EQ(equal.place_of(record), n);
+    }
+  EXPECT_TRUE(equal.is_looking());
+}
