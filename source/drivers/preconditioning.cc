@@ -9,6 +9,8 @@
 #include <deal.II/fe/mapping_q_cache.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace perideal
 {
@@ -32,12 +34,13 @@ namespace perideal
                                                  problem.parameters.model.is_consistent()));
     if (choice.preconditioner == PreconditionerName::auxiliary)
       {
-        if (choice.auxiliary_mesh == AuxiliaryMesh::parent)
-          fem = std::make_shared<ElasticFem<dim>>(
-            mesh, problem.loading.loads, create_parent_mesh(mesh, problem.failure.precrack_test()));
-        else
-          fem = std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads);
+        const auto fem =
+          choice.auxiliary_mesh == AuxiliaryMesh::parent ?
+            std::make_shared<ElasticFem<dim>>(
+              mesh, problem.loading.loads, create_parent_mesh(mesh, problem.failure.precrack_test())) :
+            std::make_shared<ElasticFem<dim>>(mesh, problem.loading.loads);
         fem->assemble(problem.body.solids, 0., nullptr, precracks());
+        at_rest = elements = make_elements(fem);
       }
     report["preconditioner"] = name_of(choice.preconditioner);
     report["auxiliary_mesh"] = choice.auxiliary_mesh ? name_of(*choice.auxiliary_mesh) : std::string();
@@ -57,17 +60,47 @@ namespace perideal
   Preconditioning<dim>::create_solver(const SolverParameters         &parameters,
                                       const ConstrainedOperator<dim> &system) const
   {
-    return create_linear_solver<dim>(parameters,
-                                     choice,
-                                     system,
-                                     problem.free_motions,
-                                     *problem.body.nodes,
-                                     fem,
-                                     problem.loading.supports->surface_nodes());
+    return create_linear_solver<dim>(parameters, choice, system, problem.free_motions, elements);
+  }
+
+  template <int dim>
+  std::shared_ptr<const AuxiliaryElements<dim>>
+  Preconditioning<dim>::make_elements(const std::shared_ptr<const ElasticFem<dim>> &fem) const
+  {
+    return std::make_shared<AuxiliaryElements<dim>>(
+      *problem.body.nodes, fem, problem.loading.supports->surface_nodes());
   }
 
   namespace
   {
+    /// Change of bonds over their length [-], by the mean of squares, from which the elements follow the
+    /// body.
+    constexpr double far_enough = 0.05;
+
+    /// That change, of the bonds that hold the body together, which turns of it make, too. Collective.
+    template <int dim>
+    double change_of_bonds(const BondForce<dim> &force, const Families<dim> &families)
+    {
+      const BondList     &bonds = force.body_bonds();
+      const auto         *now   = force.positions();
+      std::vector<double> sums(2);
+      for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
+        for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
+          {
+            const LocalIndex             j    = bonds.neighbour[slot];
+            const dealii::Tensor<1, dim> bond = families.position[j] - families.position[i];
+            for (int d = 0; d < dim; ++d)
+              {
+                const double change = now[j].value[d] - now[i].value[d] - bond[d];
+                sums[0] += change * change;
+              }
+            sums[1] += bond.norm_square();
+          }
+      const auto mine = sums;
+      dealii::Utilities::MPI::sum(mine, families.communicator, sums);
+      return std::sqrt(sums[0] / sums[1]);
+    }
+
     /// The mapping of the cells as the last forces found them: vertices move by the mean of what the cells
     /// around make of their gradients. Null where a cell lost its orientation. Collective.
     template <int dim>
@@ -121,14 +154,18 @@ namespace perideal
   {
     const auto *by_law = dynamic_cast<const ContinuumForce<dim> *>(problem.force.get());
     const auto &solids = problem.body.solids;
-    if (!fem || !fem->is_on_mesh_itself() || by_law == nullptr ||
+    if (!at_rest || !at_rest->fem().is_on_mesh_itself() || by_law == nullptr ||
         !std::all_of(solids.begin(), solids.end(), [](const auto &s) { return s.second.is_isotropic(); }))
       return;
-    const auto mapping = deformed_mapping(*problem.body.nodes, *fem, *problem.force, *by_law);
+    elements = at_rest;
+    if (change_of_bonds(*problem.force, *problem.discretisation.families) < far_enough)
+      return;
+    const auto mapping = deformed_mapping(*problem.body.nodes, at_rest->fem(), *problem.force, *by_law);
     if (!mapping)
       return;
-    fem = std::make_shared<ElasticFem<dim>>(*problem.body.mesh, problem.loading.loads);
+    const auto fem = std::make_shared<ElasticFem<dim>>(*problem.body.mesh, problem.loading.loads);
     fem->assemble(solids, 0., mapping, precracks());
+    elements = make_elements(fem);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(Preconditioning)

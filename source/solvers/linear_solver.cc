@@ -280,13 +280,12 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
-                                                          const PreconditionerChoice     &choice,
-                                                          const ConstrainedOperator<dim> &system,
-                                                          const NullSpace<dim>           &null_space,
-                                                          const Nodes<dim>               &nodes,
-                                                          const std::shared_ptr<const ElasticFem<dim>> &fem,
-                                                          const SurfaceNodes<dim> *surface)
+  std::unique_ptr<LinearSolver<dim>>
+  create_linear_solver(const SolverParameters                              &parameters,
+                       const PreconditionerChoice                          &choice,
+                       const ConstrainedOperator<dim>                      &system,
+                       const NullSpace<dim>                                &null_space,
+                       const std::shared_ptr<const AuxiliaryElements<dim>> &elements)
   {
     if (parameters.takes_cg() && !system.is_symmetric())
       throw InputError("the operator of this scene is not symmetric")
@@ -309,8 +308,8 @@ namespace perideal
       return krylov(std::make_unique<dealii::PreconditionIdentity>());
     if (choice.preconditioner == PreconditionerName::block_jacobi)
       return krylov(std::make_unique<BlockJacobi<dim>>(system));
-    Assert(fem != nullptr, dealii::ExcInternalError());
-    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, nodes, fem, surface));
+    Assert(elements != nullptr, dealii::ExcInternalError());
+    return krylov(std::make_unique<AuxiliarySpace<dim>>(system, elements));
   }
 
   PERIDEAL_INSTANTIATE_CLASS(LinearSolver)

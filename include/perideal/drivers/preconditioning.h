@@ -22,18 +22,23 @@ namespace perideal
     std::unique_ptr<LinearSolver<dim>> create_solver(const SolverParameters         &parameters,
                                                      const ConstrainedOperator<dim> &system) const;
 
-    /// Takes finite elements of the body as the last forces found it, for solvers to come: bodies that turn
-    /// far are another body to a preconditioner at rest. For isotropic solids of a law, on the mesh itself;
-    /// else it does nothing. Collective.
+    /// Takes finite elements of the body as the last forces found it, for solvers to come, where it turned or
+    /// strained far: it is another body then to a preconditioner at rest. For isotropic solids of a law, on
+    /// the mesh itself; else it does nothing. Collective.
     void follow_deformation();
 
   private:
     /// Along which faces the finite elements are to open; empty: none.
     typename SplitVertices<dim>::AreApart precracks() const;
 
-    const Problem<dim>              &problem;
-    PreconditionerChoice             choice;
-    std::shared_ptr<ElasticFem<dim>> fem;
+    std::shared_ptr<const AuxiliaryElements<dim>>
+    make_elements(const std::shared_ptr<const ElasticFem<dim>> &fem) const;
+
+    const Problem<dim>  &problem;
+    PreconditionerChoice choice;
+    /// Of the auxiliary space, where that was chosen: of the body at rest, and of that which solvers to come
+    /// take.
+    std::shared_ptr<const AuxiliaryElements<dim>> at_rest, elements;
   };
 } // namespace perideal
 

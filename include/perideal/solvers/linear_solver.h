@@ -2,8 +2,7 @@
 #ifndef perideal_solvers_linear_solver_h
 #define perideal_solvers_linear_solver_h
 
-#include <perideal/boundary/surface_nodes.h>
-#include <perideal/fem/elastic_fem.h>
+#include <perideal/operators/system/auxiliary_elements.h>
 #include <perideal/operators/system/constrained_operator.h>
 #include <perideal/operators/system/null_space.h>
 #include <perideal/solvers/solver_parameters.h>
@@ -76,17 +75,14 @@ namespace perideal
   /// the parameters say otherwise; sets up its preconditioner. The arguments
   /// must outlive the result. Collective.
   /// @param choice as of choose_preconditioner()
-  /// @param fem the assembled Q1 problem on the chosen mesh where the auxiliary space needs it,
-  ///   else a null pointer
-  /// @param surface the system's nodes on faces, or a null pointer where it has none
+  /// @param elements of the auxiliary space where that was chosen, else a null pointer
   template <int dim>
-  std::unique_ptr<LinearSolver<dim>> create_linear_solver(const SolverParameters         &parameters,
-                                                          const PreconditionerChoice     &choice,
-                                                          const ConstrainedOperator<dim> &system,
-                                                          const NullSpace<dim>           &null_space,
-                                                          const Nodes<dim>               &nodes,
-                                                          const std::shared_ptr<const ElasticFem<dim>> &fem,
-                                                          const SurfaceNodes<dim> *surface = nullptr);
+  std::unique_ptr<LinearSolver<dim>>
+  create_linear_solver(const SolverParameters                              &parameters,
+                       const PreconditionerChoice                          &choice,
+                       const ConstrainedOperator<dim>                      &system,
+                       const NullSpace<dim>                                &null_space,
+                       const std::shared_ptr<const AuxiliaryElements<dim>> &elements);
 } // namespace perideal
 
 #endif

@@ -5,6 +5,7 @@ perideal_room(operators/system
     assembled_matrix.cc
     stable_time_step.cc
   LOOPS
+    auxiliary_elements.cc
     auxiliary_space.cc
     block_jacobi.cc
     constrained_operator.cc

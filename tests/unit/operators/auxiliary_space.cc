@@ -69,12 +69,13 @@ namespace
       return Loads<dim>(parameters);
     }
 
-    std::shared_ptr<ElasticFem<dim>> make_fem(const bool on_parents) const
+    AuxiliarySpace<dim> make_preconditioner(const bool on_parents) const
     {
-      auto fem = on_parents ? std::make_shared<ElasticFem<dim>>(*mesh, loads, create_parent_mesh(*mesh)) :
-                              std::make_shared<ElasticFem<dim>>(*mesh, loads);
+      const auto fem = on_parents ?
+                         std::make_shared<ElasticFem<dim>>(*mesh, loads, create_parent_mesh(*mesh)) :
+                         std::make_shared<ElasticFem<dim>>(*mesh, loads);
       fem->assemble({{0, constants(dim)}}, 0.);
-      return fem;
+      return AuxiliarySpace<dim>(*system, std::make_shared<AuxiliaryElements<dim>>(body.nodes, fem));
     }
 
     /// CG under forces without pattern; returns the number of iterations.
@@ -111,11 +112,9 @@ namespace
     for (const bool on_parents : {false, true})
       {
         SCOPED_TRACE(on_parents ? "parents" : "same");
-        const auto  fem = box.make_fem(on_parents), fem_alone = alone.make_fem(on_parents);
         NodalVector found, found_alone;
-        const auto  iterations = box.solve(found, AuxiliarySpace<dim>(*box.system, box.body.nodes, fem));
-        const auto  iterations_alone =
-          alone.solve(found_alone, AuxiliarySpace<dim>(*alone.system, alone.body.nodes, fem_alone));
+        const auto  iterations       = box.solve(found, box.make_preconditioner(on_parents));
+        const auto  iterations_alone = alone.solve(found_alone, alone.make_preconditioner(on_parents));
         EXPECT_LE(iterations, most_iterations);
         EXPECT_LT(iterations, by_jacobi);
         EXPECT_NEAR(iterations, iterations_alone, 3);
@@ -130,8 +129,7 @@ namespace
   void expect_symmetry(const LocalRefinement &local, const bool on_parents)
   {
     const HeldBox<dim>        box(1, local, MPI_COMM_WORLD);
-    const auto                fem = box.make_fem(on_parents);
-    const AuxiliarySpace<dim> preconditioner(*box.system, box.body.nodes, fem);
+    const AuxiliarySpace<dim> preconditioner = box.make_preconditioner(on_parents);
     NodalVector               a, b, of_a, of_b;
     for (NodalVector *vector : {&a, &b, &of_a, &of_b})
       box.system->initialize(*vector);

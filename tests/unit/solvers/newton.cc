@@ -147,12 +147,8 @@ namespace
     NewtonBody body(*mesh, variants[0], {clamped()});
     body.parameters.max_iterations = 120;
     TangentSolver<2> linear(body.parameters, [&](const SolverParameters &solver) {
-      return create_linear_solver<2>(solver,
-                                     {PreconditionerName::block_jacobi, {}, ""},
-                                     *body.system,
-                                     body.null_space,
-                                     body.body.nodes,
-                                     nullptr);
+      return create_linear_solver<2>(
+        solver, {PreconditionerName::block_jacobi, {}, ""}, *body.system, body.null_space, nullptr);
     });
     NodalVector      displacement(body.load), source(body.load), solution(body.load), residual(body.load);
     for (LocalIndex i = 0; i < body.body.nodes.size(); ++i)

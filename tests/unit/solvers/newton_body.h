@@ -56,7 +56,7 @@ namespace perideal::test
       system  = std::make_unique<ConstrainedOperator<2>>(tangent, mirror, body.nodes, held.mask());
       linear  = std::make_unique<TangentSolver<2>>(parameters, [this](const SolverParameters &solver) {
         return create_linear_solver<2>(
-          solver, {PreconditionerName::block_jacobi, {}, ""}, *system, null_space, body.nodes, nullptr);
+          solver, {PreconditionerName::block_jacobi, {}, ""}, *system, null_space, nullptr);
       });
       newton  = make<NewtonSolver<2>>(controls);
       bonds->initialize(load);

@@ -2,86 +2,32 @@
 #ifndef perideal_operators_system_auxiliary_space_h
 #define perideal_operators_system_auxiliary_space_h
 
-#include <perideal/boundary/surface_nodes.h>
-#include <perideal/fem/algebraic_multigrid.h>
-#include <perideal/fem/elastic_fem.h>
+#include <perideal/operators/system/auxiliary_elements.h>
 #include <perideal/operators/system/block_jacobi.h>
 
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace perideal
 {
   /**
    * Applies the auxiliary-space preconditioner B = S + P V P^T: block Jacobi S, scaled by
-   * the largest eigenvalue, reduces rough errors; V, one multigrid cycle on a
-   * finite-element matrix of the same body, smooth ones. P takes the value
-   * of a finite-element field in the middle of each node's cell, or of its face.
-   *
-   * The elements live on the cells of the nodes or on their parents, which are
-   * fewer by 2^dim and as good for forms with forces along bonds; the consistent form takes half as many
-   * iterations more. Where the body is precracked they are open: continuous ones resist the opening of a
-   * crack of length a by a/h times what the bonds do. On its finest level V smooths once on the cells, which
-   * saves a third of the iterations, and twice on the parents.
+   * the largest eigenvalue, reduces rough errors; AuxiliaryElements, which are finite elements of the same
+   * body, smooth ones.
    */
   template <int dim>
   class AuxiliarySpace
   {
   public:
-    /// @param fem degree one, assembled, on the nodes' mesh or on that of
-    ///   create_parent_mesh(), which is kept. The other arguments must outlive this object.
-    /// @param surface the system's nodes on faces, or a null pointer where it has none
-    AuxiliarySpace(const ConstrainedOperator<dim>               &system,
-                   const Nodes<dim>                             &nodes,
-                   const std::shared_ptr<const ElasticFem<dim>> &fem,
-                   const SurfaceNodes<dim>                      *surface = nullptr);
+    /// The system must outlive this object.
+    AuxiliarySpace(const ConstrainedOperator<dim>                      &system,
+                   const std::shared_ptr<const AuxiliaryElements<dim>> &elements);
 
     void vmult(NodalVector &destination, const NodalVector &source) const;
 
   private:
-    static constexpr unsigned int n_vertices = dealii::GeometryInfo<dim>::vertices_per_cell;
-    /// Places in a cell that have nodes: its middle, then those of its faces.
-    static constexpr unsigned int n_middles = 1 + dealii::GeometryInfo<dim>::faces_per_cell;
-
-    /// Where a node lies in its element.
-    struct Place
-    {
-      /// First unknown (of dim consecutive ones) at each vertex.
-      std::array<unsigned int, n_vertices> unknowns;
-      /// Entry of weights: n_middles times the number of the child, or n_vertices for the whole element,
-      /// plus the place in that.
-      std::uint8_t part;
-    };
-
-    /// Share that an unknown has in the value of another at a hanging vertex.
-    struct Dependence
-    {
-      unsigned int hanging, on;
-      double       weight;
-    };
-
-    void set_weights();
-    void find_places(const Nodes<dim> &nodes, const ElasticFem<dim> &fem);
-    /// Those on faces of cells whose own places are known.
-    void add_places(const SurfaceNodes<dim> &surface, const Mesh<dim> &mesh, const Nodes<dim> &nodes);
-    void find_dependences(const ElasticFem<dim> &fem);
-    void restrict_to_fem(NodalVector &coarse, const NodalVector &fine) const;
-    void add_prolonged(NodalVector &fine, NodalVector &coarse) const;
-
-    const ConstrainedOperator<dim>        &system;
-    BlockJacobi<dim>                       smoother;
-    std::shared_ptr<const ElasticFem<dim>> elements;
-    AlgebraicMultigrid<dim>                multigrid;
-
-    /// Values of the linear shape functions in the middles of each child and of the element.
-    std::array<std::array<double, n_vertices>, (n_vertices + 1) * n_middles> weights;
-    std::vector<Place>                                                       places;
-    /// Of all hanging vertices that this rank knows.
-    std::vector<Dependence> dependences;
-    /// Unknowns of this rank that are constrained: their residual is set to zero.
-    std::vector<unsigned int> constrained;
-    mutable NodalVector       coarse_source, coarse_solution;
+    const ConstrainedOperator<dim>               &system;
+    BlockJacobi<dim>                              smoother;
+    std::shared_ptr<const AuxiliaryElements<dim>> elements;
   };
 } // namespace perideal
 
