@@ -118,7 +118,8 @@ namespace perideal
       double     time    = 0;
       if (!pointer.problem.empty())
         return time;
-      std::set<dealii::CellId> adapted;
+      std::set<dealii::CellId>   adapted;
+      std::vector<std::uint64_t> cells_of_ranks;
       try
         {
           const CheckpointFile file(directory + "/" + pointer.file, pointer.checksum);
@@ -126,6 +127,7 @@ namespace perideal
           time                         = content.at("time").get<double>();
           for (const auto &cell : content.at("refined cells"))
             adapted.insert(dealii::CellId(cell.get<std::string>()));
+          cells_of_ranks = content.at("cells of ranks").get<std::vector<std::uint64_t>>();
         }
       catch (const hdf5::Unreadable &)
         {
@@ -133,7 +135,7 @@ namespace perideal
       catch (const CheckpointFile::Json::exception &)
         {
         }
-      adapt_like(adapted, mesh);
+      adapt_like(adapted, cells_of_ranks, mesh);
       return time;
     }
 
@@ -175,6 +177,8 @@ namespace perideal
             if (change.state && change.state->has_begun())
               time = change.state->time();
             table.add(problem.run, *problem.body.mesh, "t =", "time", time);
+            if (change.state)
+              table.rows.back()["imbalance"] = change.state->imbalance(*problem.body.mesh);
             problem.run.adaptation    = table.rows;
             const auto driver         = create_driver(problem);
             driver->adaptation.change = std::move(change);

@@ -5,6 +5,8 @@
 #include <perideal/output/summary.h>
 #include <perideal/problem/present_state.h>
 
+#include <deal.II/base/mpi.h>
+
 // Driver: what goes on in steps is stopped and goes on.
 
 namespace perideal
@@ -61,7 +63,12 @@ namespace perideal
     const Timings::Scope scope(problem.run.timings, "output");
     Checkpoint           checkpoint = state_after(problem, step, time);
     if (problem.parameters.adaptation.is_by_need())
-      checkpoint.header["refined cells"] = refined_cells_as_text(*problem.body.mesh);
+      {
+        checkpoint.header["refined cells"] = refined_cells_as_text(*problem.body.mesh);
+        const std::uint64_t mine           = problem.body.mesh->triangulation.n_locally_owned_active_cells();
+        checkpoint.header["cells of ranks"] =
+          dealii::Utilities::MPI::all_gather(problem.run.communicator, mine);
+      }
     write_checkpoint(problem.parameters.output_directory, checkpoint, nodes_of_state(problem));
   }
 

@@ -25,9 +25,9 @@ namespace perideal
   template <int dim>
   void MeshAdaptation<dim>::look_at_first_mesh()
   {
-    change.need  = std::make_unique<MeshNeed<dim>>(problem, 0.);
-    change.state = std::make_unique<CarriedState<dim>>(
-      problem, Checkpoint(), nodes_of_state(problem), change.need->is_quiet);
+    change.need = std::make_unique<MeshNeed<dim>>(problem, 0.);
+    change.state =
+      std::make_unique<CarriedState<dim>>(problem, Checkpoint(), nodes_of_state(problem), *change.need);
   }
 
   template <int dim>
@@ -52,7 +52,7 @@ namespace perideal
     if (has_urgent_cells())
       {
         change.state = std::make_unique<CarriedState<dim>>(
-          problem, state_after(problem, step, time), nodes_of_state(problem), change.need->is_quiet);
+          problem, state_after(problem, step, time), nodes_of_state(problem), *change.need);
         if (change.state->has_failed_larger_cells(*problem.body.mesh, problem.parameters.adaptation.levels))
           problem.run.warn(
             "bonds failed in cells that were not yet as small as Adaptation/Levels lets them be, and take "

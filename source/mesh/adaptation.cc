@@ -8,9 +8,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
+#include <boost/signals2/connection.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace perideal
 {
@@ -209,11 +212,41 @@ namespace perideal
   }
 
   template <int dim>
-  void adapt_like(const std::set<dealii::CellId> &adapted, Mesh<dim> &mesh)
+  void balance_ranks(
+    Mesh<dim>                                                                                     &mesh,
+    const std::function<unsigned int(const typename dealii::Triangulation<dim>::cell_iterator &)> &weight)
+  {
+    const boost::signals2::scoped_connection connection =
+      mesh.triangulation.signals.weight.connect([&](const auto &cell, const auto) { return weight(cell); });
+    mesh.triangulation.repartition();
+  }
+
+  template <int dim>
+  void adapt_like(const std::set<dealii::CellId>   &adapted,
+                  const std::vector<std::uint64_t> &cells_of_ranks,
+                  Mesh<dim>                        &mesh)
   {
     begin_to_adapt(mesh);
     mesh.adapted.refined = adapted;
     refine_like(adapted, mesh.triangulation);
+
+    const MPI_Comm communicator = mesh.triangulation.get_communicator();
+    const auto     n_ranks      = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks == 1 || cells_of_ranks.size() != n_ranks ||
+        *std::min_element(cells_of_ranks.begin(), cells_of_ranks.end()) == 0 ||
+        std::accumulate(cells_of_ranks.begin(), cells_of_ranks.end(), std::uint64_t(0)) !=
+          mesh.triangulation.n_global_active_cells())
+      return;
+    // The cells of each rank that was have as much weight, to the last unit: p4est cuts where they ended.
+    constexpr std::uint64_t of_rank   = 1u << 30;
+    const auto              weight_of = [&](std::uint64_t cell) {
+      std::size_t rank = 0;
+      while (cell >= cells_of_ranks[rank])
+        cell -= cells_of_ranks[rank++];
+      const std::uint64_t n = cells_of_ranks[rank], each = of_rank / n;
+      return static_cast<unsigned int>(cell + 1 < n ? each : of_rank - (n - 1) * each);
+    };
+    balance_ranks<dim>(mesh, [&](const auto &cell) { return weight_of(cell->global_active_cell_index()); });
   }
 
   template <int dim>
@@ -238,6 +271,7 @@ namespace perideal
   PERIDEAL_INSTANTIATE(mark_largest)
   PERIDEAL_INSTANTIATE(refine_marked)
   PERIDEAL_INSTANTIATE(halvings)
+  PERIDEAL_INSTANTIATE(balance_ranks)
   PERIDEAL_INSTANTIATE(adapt_like)
   PERIDEAL_INSTANTIATE(refine_like)
 } // namespace perideal

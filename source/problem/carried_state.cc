@@ -32,10 +32,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  CarriedState<dim>::CarriedState(const Problem<dim>      &problem,
-                                  Checkpoint             &&given,
-                                  const CheckpointNodes   &keyed,
-                                  const std::vector<bool> &quiet)
+  CarriedState<dim>::CarriedState(const Problem<dim>    &problem,
+                                  Checkpoint           &&given,
+                                  const CheckpointNodes &keyed,
+                                  const MeshNeed<dim>   &need)
     : state(std::move(given))
   {
     const Nodes<dim> &nodes = *problem.body.nodes;
@@ -51,7 +51,7 @@ namespace perideal
     std::vector<Numbers>    of_node(nodes.size());
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        of_node[i] = {failed[i] ? 1. : 0., quiet[i] ? 1. : 0.};
+        of_node[i] = {failed[i] ? 1. : 0., need.is_quiet[i] ? 1. : 0., need.cost[i]};
         for (const auto *names : {&constant, &smooth})
           for (const std::string &name : *names)
             {

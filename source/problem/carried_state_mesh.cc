@@ -193,32 +193,54 @@ namespace perideal
   }
 
   template <int dim>
+  double CarriedState<dim>::imbalance(const Mesh<dim> &mesh) const
+  {
+    const MPI_Comm communicator = mesh.triangulation.get_communicator();
+    double         mine         = 0;
+    for (const Numbers &numbers : numbers_of_cell)
+      mine += numbers.empty() ? 0. : numbers[cost];
+    const auto costs = dealii::Utilities::MPI::min_max_avg(mine, communicator);
+    return costs.max / costs.avg;
+  }
+
+  template <int dim>
+  void CarriedState<dim>::carry(Mesh<dim> &mesh, const std::function<void()> &change)
+  {
+    auto      &triangulation = mesh.triangulation;
+    const auto pack          = [&](const Cell &cell, const auto status) {
+      return to_bytes(status == dealii::parallel::TriangulationBase<dim>::CELL_COARSEN ?
+                        join(cell) :
+                        numbers_of_cell[cell->active_cell_index()]);
+    };
+    const unsigned int handle = triangulation.register_data_attach(pack, false);
+    change();
+    std::vector<Numbers> by_cell(triangulation.n_active_cells());
+    triangulation.notify_ready_to_unpack(handle, [&](const Cell &cell, const auto status, const auto &bytes) {
+      const Numbers numbers = to_numbers(bytes);
+      if (status == dealii::parallel::TriangulationBase<dim>::CELL_REFINE)
+        halve(cell, numbers, by_cell);
+      else
+        by_cell[cell->active_cell_index()] = numbers;
+    });
+    numbers_of_cell.swap(by_cell);
+  }
+
+  template <int dim>
   void CarriedState<dim>::change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels)
   {
-    auto &triangulation = mesh.triangulation;
     for (unsigned int pass = 0; pass <= levels; ++pass)
       {
         const GlobalIndex n_halved = flag(mesh, need, pass == 0);
         if (pass > 0 && n_halved == 0)
           break;
-        const auto pack = [&](const Cell &cell, const auto status) {
-          return to_bytes(status == dealii::parallel::TriangulationBase<dim>::CELL_COARSEN ?
-                            join(cell) :
-                            numbers_of_cell[cell->active_cell_index()]);
-        };
-        const unsigned int handle = triangulation.register_data_attach(pack, false);
-        refine_marked(mesh);
-        std::vector<Numbers> by_cell(triangulation.n_active_cells());
-        triangulation.notify_ready_to_unpack(
-          handle, [&](const Cell &cell, const auto status, const auto &bytes) {
-            const Numbers numbers = to_numbers(bytes);
-            if (status == dealii::parallel::TriangulationBase<dim>::CELL_REFINE)
-              halve(cell, numbers, by_cell);
-            else
-              by_cell[cell->active_cell_index()] = numbers;
-          });
-        numbers_of_cell.swap(by_cell);
+        carry(mesh, [&] { refine_marked(mesh); });
       }
+    // A bond is far more than the unit of weights.
+    const auto weight = [&](const Cell &cell) {
+      return static_cast<unsigned int>(1. + 16. * numbers_of_cell[cell->active_cell_index()][cost]);
+    };
+    if (dealii::Utilities::MPI::n_mpi_processes(mesh.triangulation.get_communicator()) > 1)
+      carry(mesh, [&] { balance_ranks<dim>(mesh, weight); });
   }
 
   PERIDEAL_INSTANTIATE_CLASS(CarriedState)

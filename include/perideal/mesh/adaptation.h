@@ -7,6 +7,8 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/lac/vector.h>
 
+#include <cstdint>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -77,9 +79,20 @@ namespace perideal
   unsigned int halvings(const Mesh<dim>                                          &mesh,
                         const typename dealii::Triangulation<dim>::cell_iterator &cell);
 
-  /// Adapts a mesh that has not been adapted to the refined cells of one that was. Collective.
+  /// Gives ranks contiguous parts of the order of p4est with weights as equal as can be. Nothing else may
+  /// live on the mesh meanwhile. Collective.
+  /// @param weight of an owned cell, less than 2^31
   template <int dim>
-  void adapt_like(const std::set<dealii::CellId> &adapted, Mesh<dim> &mesh);
+  void balance_ranks(
+    Mesh<dim>                                                                                     &mesh,
+    const std::function<unsigned int(const typename dealii::Triangulation<dim>::cell_iterator &)> &weight);
+
+  /// Adapts a mesh that has not been adapted to the refined cells of one that was. Collective.
+  /// @param cells_of_ranks how many cells each rank had; of another number of ranks it counts for nothing
+  template <int dim>
+  void adapt_like(const std::set<dealii::CellId>   &adapted,
+                  const std::vector<std::uint64_t> &cells_of_ranks,
+                  Mesh<dim>                        &mesh);
 
   /// Refines cells until all have children that are among those of another mesh that have. Collective on
   /// distributed triangulations.

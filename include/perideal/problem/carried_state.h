@@ -6,6 +6,7 @@
 #include <perideal/problem/mesh_need.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,11 +28,11 @@ namespace perideal
   public:
     /// Takes the state of the problem, whose force has bonds. Collective.
     /// @param keyed the nodes of the state
-    /// @param quiet whether its cell may be joined with its neighbours, by owned node
-    CarriedState(const Problem<dim>      &problem,
-                 Checkpoint             &&state,
-                 const CheckpointNodes   &keyed,
-                 const std::vector<bool> &quiet);
+    /// @param need of that problem
+    CarriedState(const Problem<dim>    &problem,
+                 Checkpoint           &&state,
+                 const CheckpointNodes &keyed,
+                 const MeshNeed<dim>   &need);
 
     /// Fits polynomials to smooth fields, without which no cell may be halved; the problem is not needed any
     /// more then. Collective.
@@ -41,9 +42,13 @@ namespace perideal
     bool has_begun() const { return !state.header.empty(); }
 
     /// Halves and joins cells of a mesh on which nothing lives any more, until each is as small as it is
-    /// needed and may be. Collective.
+    /// needed and may be, and balances ranks by what their cells cost. Collective.
     /// @param levels how often a cell may be halved
     void change(Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels);
+
+    /// Cost of the cells of the rank that has most, over the mean [-]: halves cost as much as what was
+    /// halved. Collective.
+    double imbalance(const Mesh<dim> &mesh) const;
 
     /// Whether change() would halve a cell that is to be small now. Collective.
     bool is_urgent(const Mesh<dim> &mesh, const MeshNeed<dim> &need, const unsigned int levels) const;
@@ -66,6 +71,7 @@ namespace perideal
     {
       is_kept,
       is_quiet,
+      cost,
       n_places
     };
     /// Of a polynomial without its constant.
@@ -74,6 +80,8 @@ namespace perideal
     Numbers of_child(const Numbers &parent, const dealii::Tensor<1, dim> &d) const;
     /// Halves of a cell by the numbers of the cell.
     void halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell) const;
+    /// Changes the mesh, with what its cells have. Collective.
+    void carry(Mesh<dim> &mesh, const std::function<void()> &change);
     /// The cell that halves make.
     Numbers join(const Cell &parent) const;
     /// Flags cells; returns how many of all ranks are to be halved. Collective.

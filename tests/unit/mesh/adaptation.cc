@@ -40,6 +40,15 @@ namespace
     return result;
   }
 
+  /// How many cells each rank owns.
+  std::vector<std::uint64_t> cells_of_ranks(const dealii::Triangulation<2> &triangulation)
+  {
+    unsigned int mine = 0;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      mine += cell->is_locally_owned();
+    return dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, std::uint64_t(mine));
+  }
+
   template <int dim>
   void expect_copies(Mesh<dim> &mesh)
   {
@@ -112,7 +121,7 @@ TEST(Adaptation, CountsHalvingsAndIsRepeated)
   EXPECT_EQ(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 2u);
 
   const auto again = test::generate<2>("box", {2, 2}, {1., 1.}, 1);
-  adapt_like(mesh->adapted.refined, *again);
+  adapt_like(mesh->adapted.refined, {}, *again);
   EXPECT_EQ(cells_of(again->triangulation), cells_of(mesh->triangulation));
   EXPECT_EQ(again->adapted.before, mesh->adapted.before);
 
@@ -126,4 +135,37 @@ TEST(Adaptation, CountsHalvingsAndIsRepeated)
     if (cell->is_locally_owned())
       most = std::max(most, halvings(*mesh, cell));
   EXPECT_EQ(dealii::Utilities::MPI::max(most, MPI_COMM_WORLD), 1u);
+}
+
+TEST(Adaptation, BalancesRanksAndRepeatsIt)
+{
+  const auto mesh = test::generate<2>("box", {6, 6}, {1., 1.}, 1);
+  adapt_to_corner(*mesh);
+  // What lies in a corner is nine times as heavy.
+  const auto weight = [](const auto &cell) { return cell->center().norm() < 0.5 ? 9000u : 1000u; };
+  const auto load   = [&]() {
+    double result = 0;
+    for (const auto &cell : mesh->triangulation.active_cell_iterators())
+      result += cell->is_locally_owned() ? weight(cell) : 0.;
+    return dealii::Utilities::MPI::min_max_avg(result, MPI_COMM_WORLD);
+  };
+  const auto before = load();
+  balance_ranks<2>(*mesh, weight);
+  const auto after = load();
+  // Four sisters stay on one rank.
+  EXPECT_LE(after.max, after.avg + 4 * 9000.);
+  if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    EXPECT_LT(after.max, 0.8 * before.max);
+
+  const auto again = test::generate<2>("box", {6, 6}, {1., 1.}, 1);
+  adapt_like(mesh->adapted.refined, cells_of_ranks(mesh->triangulation), *again);
+  EXPECT_EQ(cells_of_ranks(again->triangulation), cells_of_ranks(mesh->triangulation));
+  std::vector<dealii::CellId> order, other;
+  for (const auto &[cells, ids] : {std::pair<const dealii::Triangulation<2> &, std::vector<dealii::CellId> &>(
+                                     mesh->triangulation, order),
+                                   {again->triangulation, other}})
+    for (const auto &cell : cells.active_cell_iterators())
+      if (cell->is_locally_owned())
+        ids.push_back(cell->id());
+  EXPECT_EQ(order, other);
 }
