@@ -246,7 +246,10 @@ namespace perideal
       const std::uint64_t n = cells_of_ranks[rank], each = of_rank / n;
       return static_cast<unsigned int>(cell + 1 < n ? each : of_rank - (n - 1) * each);
     };
-    balance_ranks<dim>(mesh, [&](const auto &cell) { return weight_of(cell->global_active_cell_index()); });
+    // They are asked for in the order of p4est.
+    std::uint64_t cell =
+      mesh.triangulation.global_active_cell_index_partitioner().lock()->local_range().first;
+    balance_ranks<dim>(mesh, [&](const auto &) { return weight_of(cell++); });
   }
 
   template <int dim>
