@@ -144,6 +144,15 @@ def check_adapted(runs):
         if abs(two["energy"][figure] / whole["energy"][figure] - 1) > 0.02:
             raise Failure(f"{figure} energy of two ranks {two['energy'][figure]}, of one {whole['energy'][figure]}")
 
+    # Ranks are balanced by cost; they have the same cells again.
+    runs.run("whole of two", ranks=2)
+    runs.run("by two", ranks=2, overrides=["Checkpoints/Steps=25"])
+    steps = summary(runs, "whole of two")["solver"]["steps"]
+    if not 0 < runs.checkpoint_step("by two") < steps - 10:
+        raise Failure(f"the checkpoint is of step {runs.checkpoint_step('by two')} of {steps}")
+    runs.run("by two", ranks=2, overrides=RESTART)
+    expect_same(runs, "by two", "whole of two", steps)
+
 
 def check_slit(runs):
     """Softening bonds and load steps by dissipated energy, from before and from behind the peak."""
