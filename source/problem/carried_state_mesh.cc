@@ -90,13 +90,18 @@ namespace perideal
   typename CarriedState<dim>::Numbers CarriedState<dim>::join(const Cell &parent) const
   {
     const std::size_t first = n_places + n_constant;
-    Numbers           result(first + n_smooth * (1 + n_coefficients), 0.);
+    Numbers           result;
     double            volume = 0;
     for (const auto &child : parent->child_iterators())
       {
         const Numbers &half    = numbers_of_cell[child->active_cell_index()];
         const double   measure = child->measure();
         volume += measure;
+        if (result.empty())
+          {
+            result = half;
+            std::fill(result.begin() + first, result.end(), 0.);
+          }
         for (std::size_t k = 0; k < result.size(); ++k)
           result[k] = k < first ? std::max(result[k], half[k]) : result[k] + measure * half[k];
       }
@@ -144,10 +149,44 @@ namespace perideal
   }
 
   template <int dim>
+  std::vector<typename CarriedState<dim>::Boxes>
+  CarriedState<dim>::boxes_of_kept_cells(const Mesh<dim> &mesh) const
+  {
+    std::vector<std::pair<unsigned int, dealii::BoundingBox<dim>>> mine;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][is_kept] > 0)
+        mine.emplace_back(halvings(mesh, cell), cell->bounding_box());
+    std::vector<std::vector<dealii::BoundingBox<dim>>> boxes(1);
+    for (const auto &of_rank :
+         dealii::Utilities::MPI::all_gather(mesh.triangulation.get_communicator(), mine))
+      for (const auto &[n, box] : of_rank)
+        {
+          boxes.resize(std::max<std::size_t>(boxes.size(), n + 1));
+          boxes[n].push_back(box);
+        }
+    std::vector<Boxes> result;
+    for (const auto &of_size : boxes)
+      result.push_back(dealii::pack_rtree(of_size));
+    return result;
+  }
+
+  template <int dim>
   GlobalIndex CarriedState<dim>::flag(Mesh<dim> &mesh, const MeshNeed<dim> &need, const bool joins) const
   {
-    const auto  blocked  = blocked_cells(mesh.triangulation);
-    GlobalIndex n_halved = 0;
+    namespace bgi            = boost::geometry::index;
+    const auto  blocked      = blocked_cells(mesh.triangulation);
+    const auto  kept         = joins ? boxes_of_kept_cells(mesh) : std::vector<Boxes>();
+    GlobalIndex n_halved     = 0;
+    const auto  is_near_kept = [&](const auto &cell, const unsigned int n) {
+      for (unsigned int m = n; m < kept.size(); ++m)
+        {
+          auto box = cell->bounding_box();
+          box.extend(need.distance_to_join(cell, n, m));
+          if (kept[m].qbegin(bgi::intersects(box)) != kept[m].qend())
+            return true;
+        }
+      return false;
+    };
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -160,8 +199,8 @@ namespace perideal
               cell->set_refine_flag();
               ++n_halved;
             }
-          else if (joins && n > 0 && !need.needs(cell, n, n) && numbers[is_quiet] > 0 &&
-                   numbers[is_kept] == 0)
+          else if (joins && n > 0 && numbers[is_quiet] > 0 && numbers[is_kept] == 0 &&
+                   !need.needs(cell, n, n) && !is_near_kept(cell, n))
             cell->set_coarsen_flag();
         }
     return sum(n_halved, mesh.triangulation.get_communicator());

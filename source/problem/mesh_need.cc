@@ -116,6 +116,7 @@ namespace perideal
     , time(time)
     , levels(problem.parameters.adaptation.levels)
     , layers(layers_between_sizes(problem.parameters.nodes.horizon_factor))
+    , horizon_factor(problem.parameters.nodes.horizon_factor)
   {
     const AdaptationParameters &adaptation   = problem.parameters.adaptation;
     const Nodes<dim>           &nodes        = *problem.body.nodes;
@@ -151,10 +152,29 @@ namespace perideal
   template <int dim>
   bool MeshNeed<dim>::needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const
   {
-    double margin = 0, size = std::ldexp(cell->minimum_vertex_distance(), static_cast<int>(halvings));
-    for (unsigned int k = 0; k < levels; ++k, size /= 2.)
-      margin += k >= wanted ? layers * size : 0.;
-    return wanted <= levels && is_in(within_reach, cell, margin);
+    return wanted <= levels && is_in(within_reach, cell, width_of_layers(cell, halvings, wanted, levels));
+  }
+
+  template <int dim>
+  double MeshNeed<dim>::width_of_layers(const Cell        &cell,
+                                        const unsigned int halvings,
+                                        const unsigned int first,
+                                        const unsigned int last) const
+  {
+    double result = 0, size = std::ldexp(cell->minimum_vertex_distance(), static_cast<int>(halvings));
+    for (unsigned int k = 0; k < last; ++k, size /= 2.)
+      result += k >= first ? layers * size : 0.;
+    return result;
+  }
+
+  template <int dim>
+  double MeshNeed<dim>::distance_to_join(const Cell        &cell,
+                                         const unsigned int halvings,
+                                         const unsigned int of_kept) const
+  {
+    // From the middle of the larger cell, of twice the size, which is a corner of this one.
+    const double horizon = 2. * horizon_factor * std::pow(cell->measure(), 1. / dim);
+    return std::max(horizon, width_of_layers(cell, halvings, halvings, of_kept));
   }
 
   template <int dim>

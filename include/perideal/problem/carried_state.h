@@ -84,6 +84,9 @@ namespace perideal
     void carry(Mesh<dim> &mesh, const std::function<void()> &change);
     /// The cell that halves make.
     Numbers join(const Cell &parent) const;
+    using Boxes = dealii::RTree<dealii::BoundingBox<dim>>;
+    /// Boxes of the cells of all ranks that stay as they are, by how often they were halved. Collective.
+    std::vector<Boxes> boxes_of_kept_cells(const Mesh<dim> &mesh) const;
     /// Flags cells; returns how many of all ranks are to be halved. Collective.
     GlobalIndex flag(Mesh<dim> &mesh, const MeshNeed<dim> &need, const bool joins) const;
     /// Own cells that may not be halved, as they or larger cells beside them are kept. Collective.

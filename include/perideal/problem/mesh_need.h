@@ -31,6 +31,13 @@ namespace perideal
     /// @param halvings of the cell
     bool needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const;
 
+    /// How far a cell has to be from one that stays as it is to be joined with its sisters [m]: no bond of
+    /// the larger cell may pass what broke there, and layers of cells of each size between are to lie around
+    /// it.
+    /// @param halvings of the cell
+    /// @param of_kept those of the other, as many or more
+    double distance_to_join(const Cell &cell, const unsigned int halvings, const unsigned int of_kept) const;
+
     /// Whether it lies so near that it is to be small now: within half of the reach.
     bool is_urgent(const Cell &cell) const { return is_in(urgent, cell, 0.); }
 
@@ -42,14 +49,21 @@ namespace perideal
   private:
     using Boxes = dealii::RTree<dealii::BoundingBox<dim>>;
 
+    /// How wide the layers of cells of sizes between are to be [m]: of those halved @p first times and more,
+    /// but not @p last times.
+    /// @param halvings of a cell, whose size tells those of the others
+    double width_of_layers(const Cell        &cell,
+                           const unsigned int halvings,
+                           const unsigned int first,
+                           const unsigned int last) const;
     /// @param margin around the boxes [m]
     bool is_in(const Boxes &boxes, const Cell &cell, const double margin) const;
 
     SpaceTimeFunction<dim> where;
     double                 time;
     unsigned int           levels;
-    /// layers_between_sizes().
-    double layers;
+    /// layers_between_sizes(), and the horizon over the spacing.
+    double layers, horizon_factor;
     /// Around nodes and edges; and where the formula says so, in parts of cells of the mesh that was looked
     /// at.
     Boxes within_reach, urgent, of_formula;
