@@ -43,6 +43,7 @@ SCENES = {
     "kalthoff_winkler": ("damage", []),
     "kalthoff_winkler_solid": ("damage", ["Material/Form=energy"]),
     "glass_branching": ("damage", []),
+    "adapted_branching": ("damage", []),
     "fragmenting_block": ("damage", []),
     "wave_in_bar": ("velocity", []),
     "tension_column_damping": ("displacement", []),
