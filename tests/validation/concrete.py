@@ -3,13 +3,12 @@
 
 from math import asin, pi
 
-from cracks import MODELS
+from cracks import ALONG_LOAD_STEPS, DEFAULT
 from page import Row, judged
 from scenes import Failed, at, peak
 
 # Bonds of the zone in the consistent form, which a stress starts.
 BY_STRESS = ["Material/Model=correspondence", "Material/Form=automatic", "Material/Compressive strength=30e6"]
-CONSISTENT = "consistent form, the default"
 CRITERIA = ("maximum tensile stress", "Mohr-Coulomb", "Drucker-Prager")
 
 
@@ -18,10 +17,10 @@ def bar(runner, _):
     rows = []
     collars = ["Boundary conditions/Layers=4",
                "Boundary conditions/left/u_x=3e-4*t*x", "Boundary conditions/right/u_x=3e-4*t*x"]
-    for model, settings in {**MODELS, CONSISTENT: ["Material/Form=automatic"]}.items():
+    for model, settings in ALONG_LOAD_STEPS.items():
         for grips, more in (("gripped at the ends", []), ("in collars of a horizon", collars)):
             # The consistent form is held at faces, not in layers.
-            if model == CONSISTENT and more:
+            if model == DEFAULT and more:
                 continue
             strengths = []
             for columns in (20, 40, 80):
@@ -37,12 +36,12 @@ def bar(runner, _):
 def brazilian_disc(runner, long):
     """The strength that the splitting test of a disc would tell, over that of the material, by model and mesh."""
     rows = []
-    for model in ("energy form", "springs"):
+    for model in ("energy form", "springs", DEFAULT):
         for size in (3.75, *([1.875] if long else [])):
             mesh = f"{model}, {size} mm"
             file = runner.mesh("brazilian_disc/disc.geo", f"disc_{size}", Size=1e-3 * size)
             try:
-                run = runner.run("brazilian_disc/disc.prm", f"disc/{model} {size}", [*MODELS[model], f"Mesh/File={file}"])
+                run = runner.run("brazilian_disc/disc.prm", f"disc/{model} {size}", [*ALONG_LOAD_STEPS[model], f"Mesh/File={file}"])
             except Failed as failure:
                 rows.append(Row("Brazilian disc", "ASTM C496; Tang 1994", mesh, "a run to its end", "", str(failure), "no"))
                 continue
@@ -59,7 +58,7 @@ def brazilian_disc(runner, long):
 
 
 def settings_of(model):
-    return MODELS[model] if model in MODELS else [*BY_STRESS, f"Material/Failure criterion={model}"]
+    return ALONG_LOAD_STEPS[model] if model in ALONG_LOAD_STEPS else [*BY_STRESS, f"Material/Failure criterion={model}"]
 
 
 def stress_onset(runner, long):
@@ -77,7 +76,7 @@ def stress_onset(runner, long):
     return rows + l_panel(runner, long, CRITERIA[:2])
 
 
-def l_panel(runner, long, models=("energy form", "springs")):
+def l_panel(runner, long, models=("energy form", "springs", DEFAULT)):
     """The L-shaped panel: peak and tail by model, mesh and fracture energy, and how far apart the meshes are."""
     rows = []
     for model in models:

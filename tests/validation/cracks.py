@@ -10,6 +10,9 @@ from scenes import HERE, SPRINGS, Failed, peak, slope
 MODELS = {"ordinary": ["Material/Model=ordinary"],
           "energy form": ["Material/Model=extended ordinary", "Material/Form=energy"],
           "springs": SPRINGS}
+# With what load steps take where a scene names no form.
+DEFAULT = "consistent form, the default"
+ALONG_LOAD_STEPS = {**MODELS, DEFAULT: ["Material/Model=extended ordinary", "Material/Form=automatic"]}
 STRESS, STRAIN = ["Material/Assumption=plane stress"], ["Material/Assumption=plane strain"]
 # What is varied, one at a time: by name, the settings of each value; springs have one Poisson's ratio.
 VARIED = {
@@ -56,13 +59,13 @@ def separate(runner, name, settings):
 def strip(runner, long):
     """The strip under pure shear: the load at which it grows, G by the domain integral, and what it dissipates."""
     rows = []
-    for model in ("energy form", "springs"):
+    for model in ("energy form", "springs", DEFAULT):
         for columns in (60, 90, 120, *([180] if long else [])):
             mesh = f"{model}, {columns} x {columns // 3}"
             nu = 1 / 3 if model == "springs" else .35
             try:
                 run = runner.run("strip/strip.prm", f"strip/{mesh}",
-                                 [f"Mesh/Cells={columns}, {columns // 3}", *(MODELS[model])])
+                                 [f"Mesh/Cells={columns}, {columns // 3}", *ALONG_LOAD_STEPS[model]])
             except Failed as failure:
                 rows.append(Row("strip", "Rivlin and Thomas", mesh, "a run to its end", "", str(failure), "no"))
                 continue
