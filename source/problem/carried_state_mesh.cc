@@ -178,7 +178,7 @@ namespace perideal
     const auto  kept         = joins ? boxes_of_kept_cells(mesh) : std::vector<Boxes>();
     GlobalIndex n_halved     = 0;
     const auto  is_near_kept = [&](const auto &cell, const unsigned int n) {
-      for (unsigned int m = n; m < kept.size(); ++m)
+      for (unsigned int m = 0; m < kept.size(); ++m)
         {
           auto box = cell->bounding_box();
           box.extend(need.distance_to_join(cell, n, m));

@@ -35,7 +35,7 @@ namespace perideal
     /// the larger cell may pass what broke there, and layers of cells of each size between are to lie around
     /// it.
     /// @param halvings of the cell
-    /// @param of_kept those of the other, as many or more
+    /// @param of_kept those of the other
     double distance_to_join(const Cell &cell, const unsigned int halvings, const unsigned int of_kept) const;
 
     /// Whether it lies so near that it is to be small now: within half of the reach.
