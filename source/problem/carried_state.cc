@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 namespace perideal
@@ -29,6 +30,30 @@ namespace perideal
               result[end] = true;
       return result;
     }
+
+    /// What a cell of the consistent form takes in a step, in bonds: 200 ns over 7 in 2-D, 660 over 6.4 in
+    /// 3-D.
+    template <int dim>
+    constexpr double bonds_of_cell = dim == 2 ? 30. : 100.;
+
+    /// What a step costs at each owned node, in bonds.
+    template <int dim>
+    std::vector<double> cost_of_nodes(const Problem<dim> &problem)
+    {
+      std::vector<double>        result(problem.body.nodes->size(),
+                                 problem.parameters.model.is_consistent() ? bonds_of_cell<dim> : 0.);
+      std::set<const BondList *> lists;
+      if (problem.force)
+        lists = {&problem.force->bond_list(), &problem.force->body_bonds()};
+      for (LocalIndex i = 0; i < result.size(); ++i)
+        {
+          if (lists.empty())
+            result[i] += problem.discretisation.families->size(i);
+          for (const BondList *list : lists)
+            result[i] += static_cast<double>(list->row[i + 1] - list->row[i]);
+        }
+      return result;
+    }
   } // namespace
 
   template <int dim>
@@ -47,11 +72,12 @@ namespace perideal
         (is_smooth ? smooth : constant).push_back(name);
         (is_smooth ? n_smooth : n_constant) += array.width;
       }
-    const std::vector<bool> failed = failed_nodes(state, nodes.size());
-    std::vector<Numbers>    of_node(nodes.size());
+    const std::vector<double> costs  = cost_of_nodes(problem);
+    const std::vector<bool>   failed = failed_nodes(state, nodes.size());
+    std::vector<Numbers>      of_node(nodes.size());
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        of_node[i] = {failed[i] ? 1. : 0., need.is_quiet[i] ? 1. : 0., need.cost[i]};
+        of_node[i] = {failed[i] ? 1. : 0., need.is_quiet[i] ? 1. : 0., costs[i]};
         for (const auto *names : {&constant, &smooth})
           for (const std::string &name : *names)
             {

@@ -269,7 +269,7 @@ namespace perideal
   {
     for (unsigned int pass = 0; pass <= levels; ++pass)
       {
-        const GlobalIndex n_halved = flag(mesh, need, pass == 0);
+        const GlobalIndex n_halved = flag(mesh, need, pass == 0 && need.may_join);
         if (pass > 0 && n_halved == 0)
           break;
         carry(mesh, [&] { refine_marked(mesh); });

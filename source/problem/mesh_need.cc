@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace perideal
 {
@@ -69,30 +68,6 @@ namespace perideal
       return result;
     }
 
-    /// What a cell of the consistent form takes in a step, in bonds: 200 ns over 7 in 2-D, 660 over 6.4 in
-    /// 3-D.
-    template <int dim>
-    constexpr double bonds_of_cell = dim == 2 ? 30. : 100.;
-
-    /// What a step costs at each owned node, in bonds.
-    template <int dim>
-    std::vector<double> cost_of_nodes(const Problem<dim> &problem)
-    {
-      std::vector<double>        result(problem.body.nodes->size(),
-                                 problem.parameters.model.is_consistent() ? bonds_of_cell<dim> : 0.);
-      std::set<const BondList *> lists;
-      if (problem.force)
-        lists = {&problem.force->bond_list(), &problem.force->body_bonds()};
-      for (LocalIndex i = 0; i < result.size(); ++i)
-        {
-          if (lists.empty())
-            result[i] += problem.discretisation.families->size(i);
-          for (const BondList *list : lists)
-            result[i] += static_cast<double>(list->row[i + 1] - list->row[i]);
-        }
-      return result;
-    }
-
     /// Boxes around places of all ranks, as far as a factor of their reach. Collective.
     template <int dim>
     dealii::RTree<dealii::BoundingBox<dim>>
@@ -125,7 +100,7 @@ namespace perideal
       return adaptation.reach * nodes.spacing[i] * nodes.finest_share(i);
     };
     Places<dim> places;
-    cost = cost_of_nodes(problem);
+    may_join = adaptation.coarsen_below > 0.;
     is_quiet.assign(nodes.size(), true);
     if (problem.force)
       {

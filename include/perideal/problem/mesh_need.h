@@ -43,8 +43,8 @@ namespace perideal
 
     /// By owned node: whether bonds are far enough below their limits for larger cells.
     std::vector<bool> is_quiet;
-    /// By owned node: what a step costs there, in bonds [-].
-    std::vector<double> cost;
+    /// Whether any are ever joined.
+    bool may_join = false;
 
   private:
     using Boxes = dealii::RTree<dealii::BoundingBox<dim>>;
