@@ -98,6 +98,7 @@ namespace perideal
   template <int dim>
   void Driver<dim>::resume_checkpoint()
   {
+    const Timings::Scope scope(problem.run.timings, "setup");
     problem.lasting.resume(*resumed);
     resumed.reset();
   }

@@ -60,7 +60,7 @@ namespace perideal
             "energy than they should: take a smaller Adaptation/Refine from, a larger Reach, shorter steps");
         if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
           {
-            change.state->fit(problem);
+            change.state->fit(problem, *change.need);
             return true;
           }
       }

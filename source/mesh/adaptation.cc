@@ -202,9 +202,11 @@ namespace perideal
   template <int dim>
   unsigned int halvings(const Mesh<dim> &mesh, const typename dealii::Triangulation<dim>::cell_iterator &cell)
   {
-    unsigned int result = 0;
     if (mesh.adapted.empty())
-      return result;
+      return 0;
+    if (mesh.adapted.before.empty())
+      return cell->level();
+    unsigned int result = 0;
     for (auto child = cell; child->level() > 0; child = child->parent())
       if (mesh.adapted.before.count(child->parent()->id()) == 0)
         ++result;

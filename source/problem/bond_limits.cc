@@ -25,6 +25,22 @@ namespace perideal
       const ModelParameters &model = body.parameters.model;
       return has_fracture_zone(body.parameters) ? model.in_zone() : model;
     }
+
+    /// critical_stretch() by the formula of a model.
+    template <int dim>
+    double stretch_of_model(const ModelParameters           &model,
+                            const Body<dim>                 &body,
+                            const dealii::types::material_id id,
+                            const double                     horizon)
+    {
+      const MaterialProperties &material = body.properties_of(id);
+      if (material.critical_stretch > 0)
+        return material.critical_stretch;
+      if (material.mean_fracture_energy() > 0 && !body.parameters.model.calibrates_bonds())
+        return model.critical_stretch(
+          body.solids.at(id).isotropic(), material.mean_fracture_energy(), horizon);
+      return never;
+    }
   } // namespace
 
   template <int dim>
@@ -42,13 +58,7 @@ namespace perideal
   template <int dim>
   double critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon)
   {
-    const MaterialProperties &material = body.properties_of(id);
-    if (material.critical_stretch > 0)
-      return material.critical_stretch;
-    if (material.mean_fracture_energy() > 0 && !body.parameters.model.calibrates_bonds())
-      return model_of_bonds(body).critical_stretch(
-        body.solids.at(id).isotropic(), material.mean_fracture_energy(), horizon);
-    return never;
+    return stretch_of_model(model_of_bonds(body), body, id, horizon);
   }
 
   template <int dim>
@@ -78,6 +88,7 @@ namespace perideal
                               const Calibrating       &calibrating)
     : body(body)
     , families(families)
+    , model(model_of_bonds(body))
   {
     if (!body.parameters.model.calibrates_bonds())
       return;
@@ -94,10 +105,9 @@ namespace perideal
       result.lateral     = lateral;
       return result;
     };
-    how.of_continuum = [&body](const auto id, const double horizon) {
-      const double energy = body.properties_of(id).mean_fracture_energy();
-      const double stretch =
-        model_of_bonds(body).critical_stretch(body.solids.at(id).isotropic(), energy, horizon);
+    how.of_continuum = [&body, this](const auto id, const double horizon) {
+      const double energy  = body.properties_of(id).mean_fracture_energy();
+      const double stretch = model.critical_stretch(body.solids.at(id).isotropic(), energy, horizon);
       return stretch * stretch / energy;
     };
     how.law         = SofteningLaw(body.parameters.material.softening);
@@ -116,7 +126,8 @@ namespace perideal
     if (calibrated.near.empty())
       {
         const double horizon = 0.5 * (families.finest_horizon(i) + families.finest_horizon(j));
-        return std::min(critical_stretch(body, near, horizon), critical_stretch(body, far, horizon));
+        const double of_near = stretch_of_model(model, body, near, horizon);
+        return near == far ? of_near : std::min(of_near, stretch_of_model(model, body, far, horizon));
       }
     const double of_near = square(near, calibrated.near[slot] / families.finest_share(i)),
                  of_far  = square(far, calibrated.far[slot] / families.finest_share(j));
@@ -140,7 +151,7 @@ namespace perideal
   template <int dim>
   double BondLimits<dim>::square(const dealii::types::material_id id, const double of_unit_energy) const
   {
-    const double stretch = critical_stretch(body, id, 0.),
+    const double stretch = stretch_of_model(model, body, id, 0.),
                  energy  = body.properties_of(id).mean_fracture_energy();
     // The least of a family that is not calibrated has a sign.
     const double of_energy = energy * std::abs(of_unit_energy);

@@ -106,7 +106,7 @@ namespace perideal
   }
 
   template <int dim>
-  void CarriedState<dim>::fit(const Problem<dim> &problem)
+  void CarriedState<dim>::fit(const Problem<dim> &problem, const MeshNeed<dim> &need)
   {
     if (n_smooth == 0)
       return;
@@ -115,9 +115,14 @@ namespace perideal
     const auto             is_cut   = problem.failure.precrack_test();
     const std::size_t      first    = n_places + n_constant;
     std::vector<Numbers *> of_node(families.n_owned());
-    for (std::size_t c = 0; c < numbers_of_cell.size(); ++c)
-      if (!numbers_of_cell[c].empty())
-        of_node[problem.body.nodes->node_of_cell[c]] = &numbers_of_cell[c];
+    std::vector<bool>      is_wanted(families.n_owned());
+    for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
+      if (Numbers &numbers = numbers_of_cell[cell->active_cell_index()]; !numbers.empty())
+        {
+          const LocalIndex i = problem.body.nodes->node_of_cell[cell->active_cell_index()];
+          of_node[i]         = &numbers;
+          is_wanted[i]       = numbers[is_kept] == 0 && need.may_be_halved(cell);
+        }
     NodalVector values(families.make_partitioner(n_smooth));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       for (std::size_t k = 0; k < n_smooth; ++k)
@@ -131,8 +136,9 @@ namespace perideal
       Eigen::Matrix<double, n_coefficients, Eigen::Dynamic> right;
     };
     std::vector<Equations> equations(families.n_owned());
-    for (auto &of : equations)
-      of.right.setZero(n_coefficients, n_smooth);
+    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+      if (is_wanted[i])
+        equations[i].right.setZero(n_coefficients, n_smooth);
     const auto add = [&](const LocalIndex i, const LocalIndex j) {
       const dealii::Tensor<1, dim> d = (families.position[j] - families.position[i]) / families.spacing[i];
       const double                 weight = 1. / d.norm_square();
@@ -145,16 +151,19 @@ namespace perideal
     for (LocalIndex i = 0; i < list.n_rows(); ++i)
       for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
         {
-          const LocalIndex j = list.neighbour[slot];
-          if (j == i || (is_cut && is_cut(families.position[i], families.position[j])))
+          const LocalIndex j       = list.neighbour[slot];
+          const bool       of_near = is_wanted[i], of_far = j < families.n_owned() && is_wanted[j];
+          if (j == i || !(of_near || of_far) ||
+              (is_cut && is_cut(families.position[i], families.position[j])))
             continue;
-          add(i, j);
-          if (j < families.n_owned())
+          if (of_near)
+            add(i, j);
+          if (of_far)
             add(j, i);
         }
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
-        if ((*of_node[i])[is_kept] > 0)
+        if (!is_wanted[i])
           continue;
         // Scaled to a unit diagonal, as fits to few points, all on a line, may be singular.
         QuadraticTerms<dim> scale = equations[i].moments.diagonal();

@@ -121,13 +121,28 @@ namespace perideal
         places.emplace_back(point, smallest);
     within_reach = boxes_around<dim>(places, 1., communicator);
     urgent       = boxes_around<dim>(places, 0.5, communicator);
-    of_formula   = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
+    for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int n = halvings(*problem.body.mesh, cell);
+          widest_layers        = std::max(widest_layers, width_of_layers(cell, n, n + 1, levels));
+        }
+    widest_layers = dealii::Utilities::MPI::max(widest_layers, communicator);
+    of_formula    = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
   }
 
   template <int dim>
   bool MeshNeed<dim>::needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const
   {
     return wanted <= levels && is_in(within_reach, cell, width_of_layers(cell, halvings, wanted, levels));
+  }
+
+  template <int dim>
+  bool MeshNeed<dim>::may_be_halved(const Cell &cell) const
+  {
+    // Cells that are halved for one that is needed are ever larger, and the last one is about as large as all
+    // of them before it together.
+    return where.is_present() || is_in(within_reach, cell, widest_layers + cell->diameter());
   }
 
   template <int dim>

@@ -65,6 +65,7 @@ namespace perideal
 
     const Body<dim>     &body;
     const Families<dim> &families;
+    ModelParameters      model;
     CalibratedStretches  calibrated;
   };
 } // namespace perideal

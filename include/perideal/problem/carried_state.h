@@ -34,9 +34,9 @@ namespace perideal
                  const CheckpointNodes &keyed,
                  const MeshNeed<dim>   &need);
 
-    /// Fits polynomials to smooth fields, without which no cell may be halved; the problem is not needed any
-    /// more then. Collective.
-    void fit(const Problem<dim> &problem);
+    /// Fits polynomials to smooth fields around the nodes of cells that may be halved; the problem is not
+    /// needed any more then. Collective.
+    void fit(const Problem<dim> &problem, const MeshNeed<dim> &need);
 
     /// Whether it is one of a run that has begun.
     bool has_begun() const { return !state.header.empty(); }

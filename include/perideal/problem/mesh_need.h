@@ -31,6 +31,9 @@ namespace perideal
     /// @param halvings of the cell
     bool needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const;
 
+    /// Whether a cell may be halved, be it by p4est beside others that are.
+    bool may_be_halved(const Cell &cell) const;
+
     /// How far a cell has to be from one that stays as it is to be joined with its sisters [m]: no bond of
     /// the larger cell may pass what broke there, and layers of cells of each size between are to lie around
     /// it.
@@ -64,6 +67,8 @@ namespace perideal
     unsigned int           levels;
     /// layers_between_sizes(), and the horizon over the spacing.
     double layers, horizon_factor;
+    /// The widest layers of cells of sizes between around any cell of the mesh that was looked at [m].
+    double widest_layers = 0.;
     /// Around nodes and edges; and where the formula says so, in parts of cells of the mesh that was looked
     /// at.
     Boxes within_reach, urgent, of_formula;
