@@ -33,10 +33,11 @@ namespace perideal
   template <int dim>
   bool MeshAdaptation<dim>::has_urgent_cells() const
   {
-    unsigned int is_there = 0;
+    const Nodes<dim> &nodes    = *problem.body.nodes;
+    unsigned int      is_there = 0;
     for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
       if (cell->is_locally_owned() &&
-          halvings(*problem.body.mesh, cell) < problem.parameters.adaptation.levels &&
+          nodes.finest_share(nodes.node_of_cell[cell->active_cell_index()]) < 1. &&
           change.need->is_urgent(cell))
         is_there = 1;
     return dealii::Utilities::MPI::max(is_there, problem.run.communicator) > 0;

@@ -116,12 +116,13 @@ namespace perideal
     const std::size_t      first    = n_places + n_constant;
     std::vector<Numbers *> of_node(families.n_owned());
     std::vector<bool>      is_wanted(families.n_owned());
+    const double           widest = need.widest_layers(*problem.body.mesh);
     for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
       if (Numbers &numbers = numbers_of_cell[cell->active_cell_index()]; !numbers.empty())
         {
           const LocalIndex i = problem.body.nodes->node_of_cell[cell->active_cell_index()];
           of_node[i]         = &numbers;
-          is_wanted[i]       = numbers[is_kept] == 0 && need.may_be_halved(cell);
+          is_wanted[i]       = numbers[is_kept] == 0 && need.may_be_halved(cell, widest);
         }
     NodalVector values(families.make_partitioner(n_smooth));
     for (LocalIndex i = 0; i < families.n_owned(); ++i)

@@ -121,14 +121,7 @@ namespace perideal
         places.emplace_back(point, smallest);
     within_reach = boxes_around<dim>(places, 1., communicator);
     urgent       = boxes_around<dim>(places, 0.5, communicator);
-    for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const unsigned int n = halvings(*problem.body.mesh, cell);
-          widest_layers        = std::max(widest_layers, width_of_layers(cell, n, n + 1, levels));
-        }
-    widest_layers = dealii::Utilities::MPI::max(widest_layers, communicator);
-    of_formula    = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
+    of_formula   = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
   }
 
   template <int dim>
@@ -138,11 +131,24 @@ namespace perideal
   }
 
   template <int dim>
-  bool MeshNeed<dim>::may_be_halved(const Cell &cell) const
+  double MeshNeed<dim>::widest_layers(const Mesh<dim> &mesh) const
+  {
+    double result = 0;
+    for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int n = halvings(mesh, cell);
+          result               = std::max(result, width_of_layers(cell, n, n + 1, levels));
+        }
+    return dealii::Utilities::MPI::max(result, mesh.triangulation.get_communicator());
+  }
+
+  template <int dim>
+  bool MeshNeed<dim>::may_be_halved(const Cell &cell, const double widest) const
   {
     // Cells that are halved for one that is needed are ever larger, and the last one is about as large as all
     // of them before it together.
-    return where.is_present() || is_in(within_reach, cell, widest_layers + cell->diameter());
+    return where.is_present() || is_in(within_reach, cell, widest + cell->diameter());
   }
 
   template <int dim>

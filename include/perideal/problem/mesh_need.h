@@ -31,8 +31,12 @@ namespace perideal
     /// @param halvings of the cell
     bool needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const;
 
+    /// The widest layers of cells of sizes between around any cell of a mesh [m]. Collective.
+    double widest_layers(const Mesh<dim> &mesh) const;
+
     /// Whether a cell may be halved, be it by p4est beside others that are.
-    bool may_be_halved(const Cell &cell) const;
+    /// @param widest widest_layers()
+    bool may_be_halved(const Cell &cell, const double widest) const;
 
     /// How far a cell has to be from one that stays as it is to be joined with its sisters [m]: no bond of
     /// the larger cell may pass what broke there, and layers of cells of each size between are to lie around
@@ -67,8 +71,6 @@ namespace perideal
     unsigned int           levels;
     /// layers_between_sizes(), and the horizon over the spacing.
     double layers, horizon_factor;
-    /// The widest layers of cells of sizes between around any cell of the mesh that was looked at [m].
-    double widest_layers = 0.;
     /// Around nodes and edges; and where the formula says so, in parts of cells of the mesh that was looked
     /// at.
     Boxes within_reach, urgent, of_formula;
