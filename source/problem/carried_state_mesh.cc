@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 // CarriedState: how the cells of its mesh change.
@@ -37,13 +38,39 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  dealii::Tensor<2, dim> CarriedState<dim>::axes_of(const Cell &cell)
+  {
+    dealii::Tensor<2, dim> result;
+    for (const unsigned int v : cell->vertex_indices())
+      for (int a = 0; a < dim; ++a)
+        for (int d = 0; d < dim; ++d)
+          result[d][a] += ((v >> a) & 1 ? 2. : -2.) / n_halves * cell->vertex(v)[d];
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> CarriedState<dim>::unit_offset_of_half(const unsigned int half)
+  {
+    dealii::Tensor<1, dim> result;
+    for (int a = 0; a < dim; ++a)
+      result[a] = (half >> a) & 1 ? 0.25 : -0.25;
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> CarriedState<dim>::offset_of_half(const Cell &cell, const unsigned int half)
+  {
+    return axes_of(cell) * unit_offset_of_half(half);
+  }
+
+  template <int dim>
   typename CarriedState<dim>::Numbers CarriedState<dim>::of_child(const Numbers                &parent,
                                                                   const dealii::Tensor<1, dim> &d) const
   {
     Numbers                   result = parent;
     const QuadraticTerms<dim> p      = quadratic_terms(d);
     const std::size_t         first  = n_places + n_constant;
-    result[is_quiet]                 = 0.;
+    result[is_quiet] = result[has_halves] = 0.;
     for (std::size_t k = 0; k < n_smooth; ++k)
       {
         double *coefficients = result.data() + first + n_smooth + k * n_coefficients;
@@ -65,25 +92,66 @@ namespace perideal
   }
 
   template <int dim>
-  void
-  CarriedState<dim>::halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell) const
+  void CarriedState<dim>::halve(const Cell           &parent,
+                                const Numbers        &numbers,
+                                std::vector<Numbers> &by_cell,
+                                Excess               &excess) const
   {
     const std::size_t        first  = n_places + n_constant;
     const dealii::Point<dim> middle = parent->barycenter();
-    std::vector<double>      excess(n_smooth, 0.);
-    double                   volume = 0;
-    for (const auto &child : parent->child_iterators())
+    std::vector<double>      more(n_smooth + 1, 0.);
+    for (unsigned int c = 0; c < n_halves; ++c)
       {
-        Numbers     &half    = by_cell[child->active_cell_index()];
-        const double measure = child->measure();
-        half                 = of_child(numbers, child->barycenter() - middle);
-        volume += measure;
+        const auto                   child   = parent->child(c);
+        Numbers                     &half    = by_cell[child->active_cell_index()];
+        const double                 measure = child->measure();
+        const dealii::Tensor<1, dim> offset  = child->barycenter() - middle;
+        half                                 = of_child(numbers, offset);
+        if (numbers[has_halves] > 0)
+          {
+            // Of cells that are no parallelograms, or lie at a curved boundary.
+            const dealii::Tensor<1, dim> moved = offset - offset_of_half(parent, c);
+            for (std::size_t k = 0; k < n_smooth; ++k)
+              {
+                half[first + k] = numbers[first_half() + n_smooth * c + k];
+                for (int a = 0; a < dim; ++a)
+                  half[first + k] += half[first + n_smooth + k * n_coefficients + a] * moved[a];
+              }
+            excess.halves.push_back(child);
+          }
+        more[n_smooth] += measure;
         for (std::size_t k = 0; k < n_smooth; ++k)
-          excess[k] += measure * (half[first + k] - numbers[first + k]);
+          more[k] += measure * (half[first + k] - numbers[first + k]);
       }
-    for (const auto &child : parent->child_iterators())
-      for (std::size_t k = 0; k < n_smooth; ++k)
-        by_cell[child->active_cell_index()][first + k] -= excess[k] / volume;
+    if (numbers[has_halves] > 0)
+      {
+        auto &sum = excess.of_material[parent->material_id()];
+        sum.resize(more.size(), 0.);
+        std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus<double>());
+      }
+    else
+      for (const auto &child : parent->child_iterators())
+        for (std::size_t k = 0; k < n_smooth; ++k)
+          by_cell[child->active_cell_index()][first + k] -= more[k] / more[n_smooth];
+  }
+
+  template <int dim>
+  void
+  CarriedState<dim>::take_back(const Mesh<dim> &mesh, Excess &excess, std::vector<Numbers> &by_cell) const
+  {
+    for (const auto id : mesh.material_ids)
+      {
+        auto &mine = excess.of_material[id];
+        mine.resize(n_smooth + 1, 0.);
+        const auto local = mine;
+        sum(local, mesh.triangulation.get_communicator(), mine);
+      }
+    for (const Cell &half : excess.halves)
+      {
+        const auto &more = excess.of_material.at(half->material_id());
+        for (std::size_t k = 0; k < n_smooth; ++k)
+          by_cell[half->active_cell_index()][n_places + n_constant + k] -= more[k] / more[n_smooth];
+      }
   }
 
   template <int dim>
@@ -107,7 +175,7 @@ namespace perideal
       }
     for (std::size_t k = first; k < result.size(); ++k)
       result[k] /= volume;
-    result[is_quiet] = 0.;
+    result[is_quiet] = result[has_halves] = 0.;
     return result;
   }
 
@@ -254,13 +322,15 @@ namespace perideal
     const unsigned int handle = triangulation.register_data_attach(pack, false);
     change();
     std::vector<Numbers> by_cell(triangulation.n_active_cells());
+    Excess               excess;
     triangulation.notify_ready_to_unpack(handle, [&](const Cell &cell, const auto status, const auto &bytes) {
       const Numbers numbers = to_numbers(bytes);
       if (status == dealii::parallel::TriangulationBase<dim>::CELL_REFINE)
-        halve(cell, numbers, by_cell);
+        halve(cell, numbers, by_cell, excess);
       else
         by_cell[cell->active_cell_index()] = numbers;
     });
+    take_back(mesh, excess, by_cell);
     numbers_of_cell.swap(by_cell);
   }
 

@@ -131,24 +131,27 @@ namespace perideal
   }
 
   template <int dim>
-  double MeshNeed<dim>::widest_layers(const Mesh<dim> &mesh) const
+  typename MeshNeed<dim>::Widths MeshNeed<dim>::largest_widths(const Mesh<dim> &mesh) const
   {
-    double result = 0;
+    Widths result{0., 0.};
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const unsigned int n = halvings(mesh, cell);
-          result               = std::max(result, width_of_layers(cell, n, n + 1, levels));
+          result.layers        = std::max(result.layers, width_of_layers(cell, n, n + 1, levels));
+          result.cell          = std::max(result.cell, cell->diameter());
         }
-    return dealii::Utilities::MPI::max(result, mesh.triangulation.get_communicator());
+    const MPI_Comm communicator = mesh.triangulation.get_communicator();
+    return {dealii::Utilities::MPI::max(result.layers, communicator),
+            dealii::Utilities::MPI::max(result.cell, communicator)};
   }
 
   template <int dim>
-  bool MeshNeed<dim>::may_be_halved(const Cell &cell, const double widest) const
+  bool MeshNeed<dim>::is_near_halved(const Cell &cell, const Widths &largest, const double distance) const
   {
     // Cells that are halved for one that is needed are ever larger, and the last one is about as large as all
     // of them before it together.
-    return where.is_present() || is_in(within_reach, cell, widest + cell->diameter());
+    return where.is_present() || is_in(within_reach, cell, largest.layers + cell->diameter() + distance);
   }
 
   template <int dim>

@@ -9,6 +9,7 @@ perideal_room(problem
     body.cc
     bond_limits.cc
     carried_state.cc
+    carried_state_fit.cc
     carried_state_mesh.cc
     cell_gradients.cc
     crack_driving.cc

@@ -18,9 +18,12 @@ namespace perideal
    *
    * Cells with a bond that softened or broke stay as they are, so that all these bonds are found again, and
    * no others fail by the change. Smooth fields are quadratic polynomials around each node, fitted to the
-   * bonds that hold the body together; halves get their values at their centroids, all by one amount the
-   * nearer to where the sum over them times their volumes is that of the cell: momentum lasts. Cells that are
-   * joined have the mean.
+   * bonds that hold the body together; at the centroids of halves those of the nodes around are weighted by
+   * how near these are, linearly along each edge of the cell: of waves of few cells, which no polynomial
+   * fits, straight lines from node to node are left, where steps between cells would double their strain
+   * energy. All halves of a material get one amount more, so that the sum over the body of values times
+   * volumes stays: momentum lasts. Halves that are halved at once again follow the polynomial of the first,
+   * and keep its sum. Cells that are joined have the mean.
    */
   template <int dim>
   class CarriedState
@@ -72,14 +75,35 @@ namespace perideal
       is_kept,
       is_quiet,
       cost,
+      /// Whether values of halves are known.
+      has_halves,
       n_places
     };
-    /// Of a polynomial without its constant.
-    static constexpr unsigned int n_coefficients = dim + dim * (dim + 1) / 2;
+    /// Of a polynomial without its constant; halves of a cell.
+    static constexpr unsigned int n_coefficients = dim + dim * (dim + 1) / 2, n_halves = 1u << dim;
+
+    /// The edges of a cell, the mean of parallel ones, in columns [m].
+    static dealii::Tensor<2, dim> axes_of(const Cell &cell);
+    /// From the middle of a cell to that of a half, the unit a whole edge; and in space [m].
+    static dealii::Tensor<1, dim> unit_offset_of_half(const unsigned int half);
+    static dealii::Tensor<1, dim> offset_of_half(const Cell &cell, const unsigned int half);
+    /// Where the values of halves stand in the numbers of a cell.
+    std::size_t first_half() const { return n_places + n_constant + n_smooth * (1 + n_coefficients); }
+
+    /// By how much values times volumes of halves are more than those of their cells, the last their volume,
+    /// by material; and the halves.
+    struct Excess
+    {
+      std::map<dealii::types::material_id, std::vector<double>> of_material;
+      std::vector<Cell>                                         halves;
+    };
 
     Numbers of_child(const Numbers &parent, const dealii::Tensor<1, dim> &d) const;
     /// Halves of a cell by the numbers of the cell.
-    void halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell) const;
+    void
+    halve(const Cell &parent, const Numbers &numbers, std::vector<Numbers> &by_cell, Excess &excess) const;
+    /// Takes from halves what values times volumes are more. Collective.
+    void take_back(const Mesh<dim> &mesh, Excess &excess, std::vector<Numbers> &by_cell) const;
     /// Changes the mesh, with what its cells have. Collective.
     void carry(Mesh<dim> &mesh, const std::function<void()> &change);
     /// The cell that halves make.
@@ -96,7 +120,8 @@ namespace perideal
     /// Names of node arrays that are constant in cells, and of smooth ones.
     std::vector<std::string> constant, smooth;
     std::size_t              n_constant = 0, n_smooth = 0;
-    /// By active cell; empty of cells of other ranks: Place, constants, values of smooth ones, coefficients.
+    /// By active cell; empty of cells of other ranks: Place, constants, values of smooth ones, coefficients,
+    /// values of halves.
     std::vector<Numbers> numbers_of_cell;
 
     /// Bonds of all ranks by the keys of their ends.

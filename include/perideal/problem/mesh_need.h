@@ -31,12 +31,18 @@ namespace perideal
     /// @param halvings of the cell
     bool needs(const Cell &cell, const unsigned int halvings, const unsigned int wanted) const;
 
-    /// The widest layers of cells of sizes between around any cell of a mesh [m]. Collective.
-    double widest_layers(const Mesh<dim> &mesh) const;
+    /// The widest layers of cells of sizes between around any cell of a mesh, and the diameter of its largest
+    /// cell [m].
+    struct Widths
+    {
+      double layers, cell;
+    };
+    /// Collective.
+    Widths largest_widths(const Mesh<dim> &mesh) const;
 
-    /// Whether a cell may be halved, be it by p4est beside others that are.
-    /// @param widest widest_layers()
-    bool may_be_halved(const Cell &cell, const double widest) const;
+    /// Whether a cell may be halved, be it by p4est beside others that are, or is within a distance [m] of
+    /// one that may.
+    bool is_near_halved(const Cell &cell, const Widths &largest, const double distance) const;
 
     /// How far a cell has to be from one that stays as it is to be joined with its sisters [m]: no bond of
     /// the larger cell may pass what broke there, and layers of cells of each size between are to lie around
