@@ -20,9 +20,6 @@ namespace perideal
     /// Eigenvalues of normal equations, over the largest, that count as zero.
     constexpr double rank_tolerance = 1e-8;
 
-    /// A node and one that a whole bond joins to it.
-    using Pairs = std::vector<std::pair<LocalIndex, LocalIndex>>;
-
     /// Fits polynomials without their constants to the differences of values to those of a node.
     template <int dim>
     class PolynomialFit
@@ -78,129 +75,187 @@ namespace perideal
   } // namespace
 
   template <int dim>
+  dealii::Tensor<2, dim> CarriedState<dim>::axes_of(const Cell &cell)
+  {
+    dealii::Tensor<2, dim> result;
+    for (const unsigned int v : cell->vertex_indices())
+      for (int a = 0; a < dim; ++a)
+        for (int d = 0; d < dim; ++d)
+          result[d][a] += ((v >> a) & 1 ? 2. : -2.) / n_halves * cell->vertex(v)[d];
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> CarriedState<dim>::unit_offset_of_half(const unsigned int half)
+  {
+    dealii::Point<dim> middle;
+    for (int d = 0; d < dim; ++d)
+      middle[d] = 0.5;
+    return dealii::GeometryInfo<dim>::child_to_cell_coordinates(middle, half) - middle;
+  }
+
+  template <int dim>
+  dealii::Tensor<1, dim> CarriedState<dim>::offset_of_half(const Cell &cell, const unsigned int half)
+  {
+    return axes_of(cell) * unit_offset_of_half(half);
+  }
+
+  template <int dim>
+  struct CarriedState<dim>::Fitting
+  {
+    const Families<dim> &families;
+    /// By owned node.
+    std::vector<Numbers *> numbers;
+    std::vector<Cell>      cell;
+    /// Whether its cell may be halved, and whether one within its reach may.
+    std::vector<bool> is_halved, is_fitted;
+    /// Owned nodes that are fitted, and those that whole bonds join to them.
+    std::vector<std::pair<LocalIndex, LocalIndex>> pairs = {};
+    /// Smooth values.
+    NodalVector values = {};
+  };
+
+  template <int dim>
   void CarriedState<dim>::fit(const Problem<dim> &problem, const MeshNeed<dim> &need)
   {
     if (n_smooth == 0)
       return;
-    const Families<dim>   &families = *problem.discretisation.families;
-    const BondList        &list     = problem.force->body_bonds();
-    const auto             is_cut   = problem.failure.precrack_test();
-    const std::size_t      first    = n_places + n_constant;
-    std::vector<Numbers *> of_node(families.n_owned());
-    std::vector<Cell>      cell_of(families.n_owned());
-    std::vector<bool>      is_fitted(families.n_owned()), is_halved(families.n_owned());
-    const auto             largest = need.largest_widths(*problem.body.mesh);
+    const Families<dim> &families = *problem.discretisation.families;
+    const LocalIndex     n        = families.n_owned();
+    Fitting              fitting{
+      families, std::vector<Numbers *>(n), std::vector<Cell>(n), std::vector<bool>(n), std::vector<bool>(n)};
+    const auto largest = need.largest_widths(*problem.body.mesh);
     for (const auto &cell : problem.body.mesh->triangulation.active_cell_iterators())
       if (Numbers &numbers = numbers_of_cell[cell->active_cell_index()]; !numbers.empty())
         {
-          const LocalIndex i = problem.body.nodes->node_of_cell[cell->active_cell_index()];
-          of_node[i]         = &numbers;
-          cell_of[i]         = cell;
-          is_halved[i]       = numbers[is_kept] == 0 && need.is_near_halved(cell, largest, 0.);
-          is_fitted[i]       = need.is_near_halved(cell, largest, largest.cell);
+          const LocalIndex i   = problem.body.nodes->node_of_cell[cell->active_cell_index()];
+          fitting.numbers[i]   = &numbers;
+          fitting.cell[i]      = cell;
+          fitting.is_halved[i] = numbers[is_kept] == 0 && need.is_near_halved(cell, largest, 0.);
+          // Halves take polynomials of nodes nearer than one and a quarter of an edge.
+          fitting.is_fitted[i] = need.is_near_halved(cell, largest, 2. * largest.cell);
         }
-    NodalVector values(families.make_partitioner(n_smooth));
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
+    fitting.values.reinit(families.make_partitioner(n_smooth));
+    for (LocalIndex i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n_smooth; ++k)
-        values.local_element(n_smooth * i + k) = (*of_node[i])[first + k];
-    values.update_ghost_values();
+        fitting.values.local_element(n_smooth * i + k) = (*fitting.numbers[i])[n_places + n_constant + k];
+    fitting.values.update_ghost_values();
 
-    Pairs pairs;
+    const BondList &list   = problem.force->body_bonds();
+    const auto      is_cut = problem.failure.precrack_test();
     for (LocalIndex i = 0; i < list.n_rows(); ++i)
       for (BondIndex slot = list.row[i]; slot < list.row[i + 1]; ++slot)
         {
           const LocalIndex j       = list.neighbour[slot];
-          const bool       of_near = is_fitted[i], of_far = j < families.n_owned() && is_fitted[j];
+          const bool       of_near = fitting.is_fitted[i], of_far = j < n && fitting.is_fitted[j];
           if (j == i || !(of_near || of_far) ||
               (is_cut && is_cut(families.position[i], families.position[j])))
             continue;
           if (of_near)
-            pairs.emplace_back(i, j);
+            fitting.pairs.emplace_back(i, j);
           if (of_far)
-            pairs.emplace_back(j, i);
+            fitting.pairs.emplace_back(j, i);
         }
+    fit_polynomials(fitting);
+    find_halves(fitting, centred_polynomials(fitting));
+  }
 
+  template <int dim>
+  void CarriedState<dim>::fit_polynomials(Fitting &fitting) const
+  {
+    const Families<dim>            &families = fitting.families;
     std::vector<PolynomialFit<dim>> fits;
     std::vector<LocalIndex>         fit_of(families.n_owned());
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (is_fitted[i])
+      if (fitting.is_fitted[i])
         {
           fit_of[i] = fits.size();
           fits.emplace_back(families.spacing[i], n_smooth);
         }
-    for (const auto &[i, j] : pairs)
+    for (const auto &[i, j] : fitting.pairs)
       fits[fit_of[i]].add(families.position[j] - families.position[i], [&, i = i, j = j](const auto k) {
-        return values.local_element(n_smooth * j + k) - values.local_element(n_smooth * i + k);
+        return fitting.values.local_element(n_smooth * j + k) -
+               fitting.values.local_element(n_smooth * i + k);
       });
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (is_fitted[i])
-        fits[fit_of[i]].solve(of_node[i]->data() + first + n_smooth);
-    fits.clear();
+      if (fitting.is_fitted[i])
+        fits[fit_of[i]].solve(fitting.numbers[i]->data() + first_coefficient());
+  }
 
-    // Polynomials whose mean over the halves of their cell is the value of its node.
-    const std::size_t width = n_smooth * (1 + n_coefficients);
-    NodalVector       polynomials(families.make_partitioner(width));
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (is_fitted[i])
+  template <int dim>
+  NodalVector CarriedState<dim>::centred_polynomials(const Fitting &fitting) const
+  {
+    const std::size_t width = 1 + n_coefficients;
+    NodalVector       result(fitting.families.make_partitioner(n_smooth * width));
+    for (LocalIndex i = 0; i < fitting.families.n_owned(); ++i)
+      if (fitting.is_fitted[i])
         {
-          const double       *coefficients = of_node[i]->data() + first + n_smooth;
+          const double       *coefficients = fitting.numbers[i]->data() + first_coefficient();
           QuadraticTerms<dim> mean         = QuadraticTerms<dim>::Zero();
-          for (unsigned int c = 0; c < n_halves; ++c)
-            mean += quadratic_terms(offset_of_half(cell_of[i], c)) / n_halves;
+          for (unsigned int half = 0; half < n_halves; ++half)
+            mean += quadratic_terms(offset_of_half(fitting.cell[i], half)) / n_halves;
           for (std::size_t k = 0; k < n_smooth; ++k)
             {
-              double middle = values.local_element(n_smooth * i + k);
+              const std::size_t at     = (n_smooth * i + k) * width;
+              double            middle = fitting.values.local_element(n_smooth * i + k);
               for (unsigned int c = 0; c < n_coefficients; ++c)
                 {
                   const double coefficient = coefficients[k * n_coefficients + c];
                   middle -= coefficient * mean[c];
-                  polynomials.local_element(width * i + k * (1 + n_coefficients) + 1 + c) = coefficient;
+                  result.local_element(at + 1 + c) = coefficient;
                 }
-              polynomials.local_element(width * i + k * (1 + n_coefficients)) = middle;
+              result.local_element(at) = middle;
             }
         }
-    polynomials.update_ghost_values();
+    result.update_ghost_values();
+    return result;
+  }
 
+  template <int dim>
+  void CarriedState<dim>::find_halves(Fitting &fitting, const NodalVector &polynomials) const
+  {
+    const Families<dim>                      &families = fitting.families;
+    const std::size_t                         width    = 1 + n_coefficients;
     std::vector<std::array<double, n_halves>> sum_of_weights(families.n_owned());
     std::vector<dealii::Tensor<2, dim>>       to_unit(families.n_owned());
     const auto                                add = [&](const LocalIndex i, const LocalIndex j) {
       const dealii::Tensor<1, dim> to_far = families.position[j] - families.position[i],
                                    unit = to_unit[i] * to_far;
-      for (unsigned int c = 0; c < n_halves; ++c)
+      for (unsigned int half = 0; half < n_halves; ++half)
         {
           double weight = 1;
           for (int d = 0; d < dim; ++d)
-            weight *= std::max(0., 1. - std::abs(unit[d] - unit_offset_of_half(c)[d]));
+            weight *= std::max(0., 1. - std::abs(unit[d] - unit_offset_of_half(half)[d]));
           if (weight == 0.)
             continue;
-          sum_of_weights[i][c] += weight;
-          const QuadraticTerms<dim> p = quadratic_terms(offset_of_half(cell_of[i], c) - to_far);
-          double                   *half = of_node[i]->data() + first_half() + n_smooth * c;
+          sum_of_weights[i][half] += weight;
+          const QuadraticTerms<dim> terms = quadratic_terms(offset_of_half(fitting.cell[i], half) - to_far);
+          double                   *values = fitting.numbers[i]->data() + first_half() + n_smooth * half;
           for (std::size_t k = 0; k < n_smooth; ++k)
             {
-              const std::size_t at    = width * j + k * (1 + n_coefficients);
+              const std::size_t at    = (n_smooth * j + k) * width;
               double            value = polynomials.local_element(at);
-              for (unsigned int t = 0; t < n_coefficients; ++t)
-                value += polynomials.local_element(at + 1 + t) * p[t];
-              half[k] += weight * value;
+              for (unsigned int c = 0; c < n_coefficients; ++c)
+                value += polynomials.local_element(at + 1 + c) * terms[c];
+              values[k] += weight * value;
             }
         }
     };
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (is_halved[i])
+      if (fitting.is_halved[i])
         {
-          to_unit[i]                = invert(axes_of(cell_of[i]));
-          (*of_node[i])[has_halves] = 1.;
+          to_unit[i]                        = invert(axes_of(fitting.cell[i]));
+          (*fitting.numbers[i])[has_halves] = 1.;
           add(i, i);
         }
-    for (const auto &[i, j] : pairs)
-      if (is_halved[i])
+    for (const auto &[i, j] : fitting.pairs)
+      if (fitting.is_halved[i])
         add(i, j);
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      if (is_halved[i])
-        for (unsigned int c = 0; c < n_halves; ++c)
+      if (fitting.is_halved[i])
+        for (unsigned int half = 0; half < n_halves; ++half)
           for (std::size_t k = 0; k < n_smooth; ++k)
-            (*of_node[i])[first_half() + n_smooth * c + k] /= sum_of_weights[i][c];
+            (*fitting.numbers[i])[first_half() + n_smooth * half + k] /= sum_of_weights[i][half];
   }
 
   PERIDEAL_INSTANTIATE_CLASS(CarriedState)

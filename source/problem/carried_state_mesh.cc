@@ -38,32 +38,6 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  dealii::Tensor<2, dim> CarriedState<dim>::axes_of(const Cell &cell)
-  {
-    dealii::Tensor<2, dim> result;
-    for (const unsigned int v : cell->vertex_indices())
-      for (int a = 0; a < dim; ++a)
-        for (int d = 0; d < dim; ++d)
-          result[d][a] += ((v >> a) & 1 ? 2. : -2.) / n_halves * cell->vertex(v)[d];
-    return result;
-  }
-
-  template <int dim>
-  dealii::Tensor<1, dim> CarriedState<dim>::unit_offset_of_half(const unsigned int half)
-  {
-    dealii::Tensor<1, dim> result;
-    for (int a = 0; a < dim; ++a)
-      result[a] = (half >> a) & 1 ? 0.25 : -0.25;
-    return result;
-  }
-
-  template <int dim>
-  dealii::Tensor<1, dim> CarriedState<dim>::offset_of_half(const Cell &cell, const unsigned int half)
-  {
-    return axes_of(cell) * unit_offset_of_half(half);
-  }
-
-  template <int dim>
   typename CarriedState<dim>::Numbers CarriedState<dim>::of_child(const Numbers                &parent,
                                                                   const dealii::Tensor<1, dim> &d) const
   {

@@ -68,7 +68,8 @@ namespace perideal
       return result;
     }
 
-    /// Boxes around places of all ranks, as far as a factor of their reach. Collective.
+    /// Boxes around places of all ranks, as far as a factor of their reach and a hair less: cells that touch
+    /// one are not in it, whatever way it is rounded. Collective.
     template <int dim>
     dealii::RTree<dealii::BoundingBox<dim>>
     boxes_around(const Places<dim> &mine, const double factor, MPI_Comm communicator)
@@ -78,7 +79,7 @@ namespace perideal
         for (const auto &[middle, reach] : of_rank)
           {
             dealii::BoundingBox<dim> box({middle, middle});
-            box.extend(factor * reach);
+            box.extend((1. - Nodes<dim>::round_off) * factor * reach);
             boxes.push_back(box);
           }
       return dealii::pack_rtree(boxes);

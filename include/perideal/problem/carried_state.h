@@ -88,7 +88,8 @@ namespace perideal
     static dealii::Tensor<1, dim> unit_offset_of_half(const unsigned int half);
     static dealii::Tensor<1, dim> offset_of_half(const Cell &cell, const unsigned int half);
     /// Where the values of halves stand in the numbers of a cell.
-    std::size_t first_half() const { return n_places + n_constant + n_smooth * (1 + n_coefficients); }
+    std::size_t first_half() const { return first_coefficient() + n_smooth * n_coefficients; }
+    std::size_t first_coefficient() const { return n_places + n_constant + n_smooth; }
 
     /// By how much values times volumes of halves are more than those of their cells, the last their volume,
     /// by material; and the halves.
@@ -97,6 +98,16 @@ namespace perideal
       std::map<dealii::types::material_id, std::vector<double>> of_material;
       std::vector<Cell>                                         halves;
     };
+
+    /// What fit() looks at.
+    struct Fitting;
+    /// Fits the polynomials of smooth values around their values at nodes.
+    void fit_polynomials(Fitting &fitting) const;
+    /// Polynomials of owned nodes and their neighbours, each with its constant first, whose mean over halves
+    /// of the cell is the value of the node. Collective.
+    NodalVector centred_polynomials(const Fitting &fitting) const;
+    /// Weighs the polynomials around each half.
+    void find_halves(Fitting &fitting, const NodalVector &polynomials) const;
 
     Numbers of_child(const Numbers &parent, const dealii::Tensor<1, dim> &d) const;
     /// Halves of a cell by the numbers of the cell.
