@@ -26,9 +26,11 @@ namespace perideal
       return has_fracture_zone(body.parameters) ? model.in_zone() : model;
     }
 
-    /// critical_stretch() by the formula of a model.
+    /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
+    /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
+    /// @param model what bonds that break are of
     template <int dim>
-    double stretch_of_model(const ModelParameters           &model,
+    double critical_stretch(const ModelParameters           &model,
                             const Body<dim>                 &body,
                             const dealii::types::material_id id,
                             const double                     horizon)
@@ -53,12 +55,6 @@ namespace perideal
     const double           nu      = solid.poisson_ratio;
     const bool             is_thin = solid.assumption != PlaneAssumption::plane_strain;
     return {strength / solid.young_modulus * (is_thin ? 1. : 1. - nu * nu), is_thin ? nu : nu / (1. - nu)};
-  }
-
-  template <int dim>
-  double critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon)
-  {
-    return stretch_of_model(model_of_bonds(body), body, id, horizon);
   }
 
   template <int dim>
@@ -126,8 +122,8 @@ namespace perideal
     if (calibrated.near.empty())
       {
         const double horizon = 0.5 * (families.finest_horizon(i) + families.finest_horizon(j));
-        const double of_near = stretch_of_model(model, body, near, horizon);
-        return near == far ? of_near : std::min(of_near, stretch_of_model(model, body, far, horizon));
+        const double of_near = critical_stretch(model, body, near, horizon);
+        return near == far ? of_near : std::min(of_near, critical_stretch(model, body, far, horizon));
       }
     const double of_near = square(near, calibrated.near[slot] / families.finest_share(i)),
                  of_far  = square(far, calibrated.far[slot] / families.finest_share(j));
@@ -151,7 +147,7 @@ namespace perideal
   template <int dim>
   double BondLimits<dim>::square(const dealii::types::material_id id, const double of_unit_energy) const
   {
-    const double stretch = stretch_of_model(model, body, id, 0.),
+    const double stretch = critical_stretch(model, body, id, 0.),
                  energy  = body.properties_of(id).mean_fracture_energy();
     // The least of a family that is not calibrated has a sign.
     const double of_energy = energy * std::abs(of_unit_energy);
@@ -159,7 +155,6 @@ namespace perideal
   }
 
   PERIDEAL_INSTANTIATE(strain_of_strength)
-  PERIDEAL_INSTANTIATE(critical_stretch)
   PERIDEAL_INSTANTIATE(first_strain)
   PERIDEAL_INSTANTIATE_CLASS(BondLimits)
 } // namespace perideal

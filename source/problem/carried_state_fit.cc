@@ -25,7 +25,7 @@ namespace perideal
     class PolynomialFit
     {
     public:
-      static constexpr unsigned int n_coefficients = dim + dim * (dim + 1) / 2;
+      static constexpr unsigned int n_coefficients = QuadraticTerms<dim>::RowsAtCompileTime;
 
       PolynomialFit(const double spacing, const std::size_t n_values)
         : spacing(spacing)
@@ -217,19 +217,20 @@ namespace perideal
     const Families<dim>                      &families = fitting.families;
     const std::size_t                         width    = 1 + n_coefficients;
     std::vector<std::array<double, n_halves>> sum_of_weights(families.n_owned());
-    std::vector<dealii::Tensor<2, dim>>       to_unit(families.n_owned());
+    std::vector<dealii::Tensor<2, dim>>       axes(families.n_owned()), to_unit(families.n_owned());
     const auto                                add = [&](const LocalIndex i, const LocalIndex j) {
       const dealii::Tensor<1, dim> to_far = families.position[j] - families.position[i],
                                    unit = to_unit[i] * to_far;
       for (unsigned int half = 0; half < n_halves; ++half)
         {
-          double weight = 1;
+          const dealii::Tensor<1, dim> of_half = unit_offset_of_half(half);
+          double                       weight  = 1;
           for (int d = 0; d < dim; ++d)
-            weight *= std::max(0., 1. - std::abs(unit[d] - unit_offset_of_half(half)[d]));
+            weight *= std::max(0., 1. - std::abs(unit[d] - of_half[d]));
           if (weight == 0.)
             continue;
           sum_of_weights[i][half] += weight;
-          const QuadraticTerms<dim> terms = quadratic_terms(offset_of_half(fitting.cell[i], half) - to_far);
+          const QuadraticTerms<dim> terms = quadratic_terms<dim>(axes[i] * of_half - to_far);
           double                   *values = fitting.numbers[i]->data() + first_half() + n_smooth * half;
           for (std::size_t k = 0; k < n_smooth; ++k)
             {
@@ -244,7 +245,8 @@ namespace perideal
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       if (fitting.is_halved[i])
         {
-          to_unit[i]                        = invert(axes_of(fitting.cell[i]));
+          axes[i]                           = axes_of(fitting.cell[i]);
+          to_unit[i]                        = invert(axes[i]);
           (*fitting.numbers[i])[has_halves] = 1.;
           add(i, i);
         }

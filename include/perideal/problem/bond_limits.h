@@ -15,11 +15,6 @@ namespace perideal
   template <int dim>
   std::pair<double, double> strain_of_strength(const Body<dim> &body, const dealii::types::material_id id);
 
-  /// Returns the critical stretch of a material at a horizon by the formula of the scene [-]; infinity:
-  /// unbreakable. Of scenes that calibrate their bonds, a stretch that is given.
-  template <int dim>
-  double critical_stretch(const Body<dim> &body, const dealii::types::material_id id, const double horizon);
-
   /// Returns the strain at which bonds of a material and a horizon begin to fail [-], whether they are
   /// calibrated or not: by the strength, a stretch that is given or the published formula; infinity: never.
   template <int dim>
