@@ -91,44 +91,63 @@ namespace perideal
   template <int dim, unsigned int n_sums, bool own_force_weights>
   double FamilyForce<dim, n_sums, own_force_weights>::strain_energy() const
   {
-    const LocalIndex n_owned = families->n_owned();
-    // Without the division of motion(): where dissipated energy is controlled, this is read often.
-    const auto extension = [&](const BondIndex slot, const LocalIndex i, const LocalIndex j) {
-      double square = 0;
-      for (int d = 0; d < dim; ++d)
-        {
-          const double along = position[j].value[d] - position[i].value[d];
-          square += along * along;
-        }
-      return (std::sqrt(square) - rest_length[slot]) * rest_length[slot];
-    };
-
-    double              result = 0;
-    std::vector<States> force(own_force_weights ? n_owned : 0, States{});
+    // Where dissipated energy is controlled, this is read often: four bonds at once, as forces are summed.
+    const LocalIndex    n_owned   = families->n_owned();
+    const bool          softens   = softening.softens();
+    const LocalIndex   *neighbour = bonds.neighbour.data();
+    const NodeRecord   *y         = position.data();
+    const Lanes         one       = Lanes{} + 1.;
+    double              result    = 0;
+    std::vector<double> force(own_force_weights ? families->n_local() : 0, 0.);
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
-      for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
-        {
-          // In a zone, most bonds of the rows around it have no weight.
-          if (!own_force_weights && stiffness(slot) == 0.)
-            continue;
-          const LocalIndex j     = bonds.neighbour[slot];
-          const double     eps   = extension(slot, i, j);
-          const double     share = j < n_owned ? 1. : 0.5, carried = softening.share(slot) * eps;
-          result += share * 0.5 * softening.stiffness_left(slot, eps) * stiffness(slot) * eps * eps;
-          if constexpr (own_force_weights)
-            {
-              force[i][0] += force_weight(0, {slot, true}) * carried;
-              if (j < n_owned)
-                force[j][0] += force_weight(0, {slot, false}) * carried;
-            }
-        }
+      {
+        const Lanes            yi        = lanes(y[i]);
+        Lanes                  of_bonds  = {};
+        [[maybe_unused]] Lanes own_force = {};
+        for (BondIndex k = bonds.row[i]; k < bonds.row[i + 1]; k += BondList::n_lanes)
+          {
+            Lanes constant;
+            load(constant, weights.stiffness.data() + k);
+            // In a zone, most bonds of the rows around it have no weight.
+            if (!own_force_weights && constant[0] == 0. && constant[1] == 0. && constant[2] == 0. &&
+                constant[3] == 0.)
+              continue;
+            const LocalIndex *j       = neighbour + k;
+            const Lanes       bond[4] = {
+                    lanes(y[j[0]]) - yi, lanes(y[j[1]]) - yi, lanes(y[j[2]]) - yi, lanes(y[j[3]]) - yi};
+            Lanes square, rest;
+            sum_of_each(square, bond[0] * bond[0], bond[1] * bond[1], bond[2] * bond[2], bond[3] * bond[3]);
+            load(rest, rest_length.data() + k);
+            const Lanes eps            = (square_root(square) - rest) * rest;
+            const Lanes left           = softens ? softening.shares_of(k) : one;
+            const Lanes energy_of_each = (eps > 0. ? left : one) * constant * eps * eps;
+            // Half of a bond that the partition cuts.
+            of_bonds += energy_of_each * Lanes{j[0] < n_owned ? 1. : 0.5,
+                                               j[1] < n_owned ? 1. : 0.5,
+                                               j[2] < n_owned ? 1. : 0.5,
+                                               j[3] < n_owned ? 1. : 0.5};
+            if constexpr (own_force_weights)
+              {
+                Lanes near, far;
+                load(near, weights.force_weights()[0].near.data() + k);
+                load(far, weights.force_weights()[0].far.data() + k);
+                own_force += near * left * eps;
+                far *= left * eps;
+                for (unsigned int lane = 0; lane < BondList::n_lanes; ++lane)
+                  force[j[lane]] += far[lane];
+              }
+          }
+        result += 0.5 * unit.stiffness * sum_of_all(of_bonds);
+        if constexpr (own_force_weights)
+          force[i] += sum_of_all(own_force);
+      }
     for (LocalIndex i = 0; i < n_owned; ++i)
       {
         FamilySums family;
         for (unsigned int a = 0; a < n_sums; ++a)
           family.sum[a] = sums[a][i];
         if constexpr (own_force_weights)
-          family.force = force[i];
+          family.force[0] = unit.force * force[i];
         result += family_energy(i, family);
       }
     return dealii::Utilities::MPI::sum(result, families->communicator);
