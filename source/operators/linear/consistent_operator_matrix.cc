@@ -178,9 +178,9 @@ namespace perideal
   {
     if (deformed)
       {
-        const auto states = deformed->points_of(i);
+        const auto moduli = deformed->moduli_of(i);
         visit(
-          [&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, states, row, k, m); });
+          [&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, moduli, row, k, m); });
         return;
       }
     CellEnergy<dim> energy{

@@ -211,8 +211,32 @@ namespace perideal
   }
 
   template <int dim>
-  dealii::Tensor<2, dim> DeformedCells<dim>::block_of(
-    const LocalIndex i, const Points &states, const Row &row, const std::size_t k, const std::size_t m) const
+  std::vector<dealii::Tensor<4, dim>> DeformedCells<dim>::moduli_of(const LocalIndex i) const
+  {
+    std::vector<dealii::Tensor<4, dim>> result;
+    for (const Point &point : points_of(i))
+      {
+        result.emplace_back();
+        for (unsigned int b = 0; b < dim; ++b)
+          for (unsigned int n = 0; n < dim; ++n)
+            {
+              dealii::Tensor<2, dim> gradient;
+              gradient[b][n]    = points->weight(i);
+              const auto stress = change_of_stress(point, gradient);
+              for (unsigned int a = 0; a < dim; ++a)
+                for (unsigned int l = 0; l < dim; ++l)
+                  result.back()[a][l][b][n] = stress[a][l];
+            }
+      }
+    return result;
+  }
+
+  template <int dim>
+  dealii::Tensor<2, dim> DeformedCells<dim>::block_of(const LocalIndex                           i,
+                                                      const std::vector<dealii::Tensor<4, dim>> &at_points,
+                                                      const Row                                 &row,
+                                                      const std::size_t                          k,
+                                                      const std::size_t                          m) const
   {
     const auto q = points->offsets(i);
     // The gradient at a point that one of a column's components makes.
@@ -226,14 +250,18 @@ namespace perideal
     };
     dealii::Tensor<2, dim> result;
     for (unsigned int p = 0; p < CellPoints<dim>::n; ++p)
-      for (unsigned int b = 0; b < dim; ++b)
-        {
-          dealii::Tensor<2, dim> gradient;
-          gradient[b]       = at_point(m, b, p);
-          const auto stress = points->weight(i) * change_of_stress(states[p], gradient);
-          for (unsigned int a = 0; a < dim; ++a)
-            result[a][b] += stress[a] * at_point(k, a, p);
-        }
+      {
+        std::array<dealii::Tensor<1, dim>, dim> near, far;
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            near[a] = at_point(k, a, p);
+            far[a]  = k == m ? near[a] : at_point(m, a, p);
+          }
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int l = 0; l < dim; ++l)
+            for (unsigned int b = 0; b < dim; ++b)
+              result[a][b] += near[a][l] * (at_points[p][a][l][b] * far[b]);
+      }
     for (unsigned int a = 0; a < dim; ++a)
       result[a][a] += row.gradient_of(a)[k] * (bond_stress[i] * row.gradient_of(a)[m]);
     return result;

@@ -52,15 +52,16 @@ namespace perideal
     /// Puts the change of what acts on gradients, moments and values in their places.
     void turn_into_stress() const;
 
-    /// The points of an owned cell as they are.
-    Points points_of(const LocalIndex i) const;
+    /// The weight of a point of an owned cell times (dP_aL/dF_bN) at each of its points [N m], of which the
+    /// blocks of all of its columns are made.
+    std::vector<dealii::Tensor<4, dim>> moduli_of(const LocalIndex i) const;
     /// The block of two columns of a cell's row.
-    /// @param states its points
-    dealii::Tensor<2, dim> block_of(const LocalIndex  i,
-                                    const Points     &states,
-                                    const Row        &row,
-                                    const std::size_t k,
-                                    const std::size_t m) const;
+    /// @param at_points as of moduli_of()
+    dealii::Tensor<2, dim> block_of(const LocalIndex                           i,
+                                    const std::vector<dealii::Tensor<4, dim>> &at_points,
+                                    const Row                                 &row,
+                                    const std::size_t                          k,
+                                    const std::size_t                          m) const;
 
     /// The bond of an owned node with another local one in the deformed body [m].
     dealii::Tensor<1, dim> bond(const LocalIndex i, const LocalIndex j) const;
@@ -77,6 +78,9 @@ namespace perideal
   private:
     using Symmetric = SymmetricPairs<dim>;
     using Pairs     = typename Symmetric::Pairs;
+
+    /// The points of an owned cell as they are.
+    Points points_of(const LocalIndex i) const;
 
     /// Keeps by what the gradients at the points of a cell are above the mean.
     void         keep_changes(const LocalIndex i);
