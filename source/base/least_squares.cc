@@ -18,11 +18,15 @@ namespace perideal
     return result;
   }
 
-  Eigen::VectorXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
-                                          const Eigen::VectorXd &right_hand_side,
+  Eigen::MatrixXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
+                                          const Eigen::MatrixXd &right_hand_sides,
                                           const double           tolerance)
   {
-    return PseudoInverse<Eigen::MatrixXd>(matrix, tolerance).solve(right_hand_side);
+    const PseudoInverse<Eigen::MatrixXd> inverse(matrix, tolerance);
+    Eigen::MatrixXd                      result(right_hand_sides.rows(), right_hand_sides.cols());
+    for (Eigen::Index k = 0; k < result.cols(); ++k)
+      result.col(k) = inverse.solve(right_hand_sides.col(k));
+    return result;
   }
 
   template <int dim>

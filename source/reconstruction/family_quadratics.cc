@@ -49,13 +49,13 @@ namespace perideal
   {
     std::vector<dealii::Tensor<2, dim>> result(nodes.size());
     for (LocalIndex k = 0; k < nodes.size(); ++k)
-      for (int a = 0; a < dim; ++a)
-        {
-          const Eigen::VectorXd polynomial =
-            solve_by_pseudo_inverse(moments[k].of_terms, moments[k].of_values.col(a), undetermined);
+      {
+        const Eigen::MatrixXd polynomials =
+          solve_by_pseudo_inverse(moments[k].of_terms, moments[k].of_values, undetermined);
+        for (int a = 0; a < dim; ++a)
           for (int b = 0; b < dim; ++b)
-            result[k][a][b] = polynomial[1 + b] / families.horizon[nodes[k]];
-        }
+            result[k][a][b] = polynomials(1 + b, a) / families.horizon[nodes[k]];
+      }
     return result;
   }
 

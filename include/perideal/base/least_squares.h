@@ -65,10 +65,10 @@ namespace perideal
     Eigen::Index n_free = 0;
   };
 
-  /// Solves by PseudoInverse. Compiled once, with sizes known at run time: the eigenvalues of each size known
-  /// to the compiler take it half a minute.
-  Eigen::VectorXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
-                                          const Eigen::VectorXd &right_hand_side,
+  /// Solves by PseudoInverse for each column of right-hand sides. Compiled once, with sizes known at run
+  /// time: the eigenvalues of each size known to the compiler take it half a minute.
+  Eigen::MatrixXd solve_by_pseudo_inverse(const Eigen::MatrixXd &matrix,
+                                          const Eigen::MatrixXd &right_hand_sides,
                                           const double           tolerance);
 
   /**
