@@ -178,7 +178,7 @@ namespace perideal
   {
     if (deformed)
       {
-        const auto moduli = deformed->moduli_of(i);
+        const auto moduli = deformed->weighted_moduli(i);
         visit(
           [&](const std::size_t k, const std::size_t m) { return deformed->block_of(i, moduli, row, k, m); });
         return;

@@ -211,7 +211,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<4, dim>> DeformedCells<dim>::moduli_of(const LocalIndex i) const
+  std::vector<dealii::Tensor<4, dim>> DeformedCells<dim>::weighted_moduli(const LocalIndex i) const
   {
     std::vector<dealii::Tensor<4, dim>> result;
     for (const Point &point : points_of(i))

@@ -54,9 +54,9 @@ namespace perideal
 
     /// The weight of a point of an owned cell times (dP_aL/dF_bN) at each of its points [N m], of which the
     /// blocks of all of its columns are made.
-    std::vector<dealii::Tensor<4, dim>> moduli_of(const LocalIndex i) const;
+    std::vector<dealii::Tensor<4, dim>> weighted_moduli(const LocalIndex i) const;
     /// The block of two columns of a cell's row.
-    /// @param at_points as of moduli_of()
+    /// @param at_points as of weighted_moduli()
     dealii::Tensor<2, dim> block_of(const LocalIndex                           i,
                                     const std::vector<dealii::Tensor<4, dim>> &at_points,
                                     const Row                                 &row,
