@@ -3,6 +3,7 @@
 perideal_room(fracture
   SOURCES
     crack_branching.cc
+    crack_fronts.cc
     crack_path.cc
     crack_tips.cc
     crack_tracker.cc
