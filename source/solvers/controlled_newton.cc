@@ -42,7 +42,8 @@ namespace perideal
   template <int dim>
   void ControlledNewton<dim>::initialize()
   {
-    for (NodalVector *vector : {&external, &later, &of_loads, &by_secant, &by_tangent, &first_residual})
+    for (NodalVector *vector :
+         {&external, &later, &of_loads, &by_unit.secant, &by_unit.tangent, &first_residual})
       vector->reinit(this->residual);
     this->bonds.initialize(start.displacement);
     fronts.begin(this->bonds.damage());
@@ -52,8 +53,8 @@ namespace perideal
   void ControlledNewton<dim>::register_state(LastingState &state)
   {
     NewtonSolver<dim>::register_state(state);
-    state.add_node_array("displacement by unit loads", "m", dim, by_secant);
-    state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_tangent);
+    state.add_node_array("displacement by unit loads", "m", dim, by_unit.secant);
+    state.add_node_array("displacement by unit loads, by the tangent", "m", dim, by_unit.tangent);
     state.add_value("controlled amount", previous.amount);
     state.add_value("change of what is controlled by unit load factor", previous.by_time);
     if (!control.gauge)
@@ -85,7 +86,7 @@ namespace perideal
   void ControlledNewton<dim>::place(const double share, const double time_change)
   {
     displacement = start.displacement;
-    displacement.add(share, this->correction, time_change, *by_loads);
+    displacement.add(share, this->correction, time_change, *by_unit.used);
     now = start.time + time_change;
     held.set_boundary_values(this->loads, now, displacement);
     if (this->face_values != nullptr)
@@ -182,10 +183,10 @@ namespace perideal
     const double in_place = go(last.motion);
     if (control.gauge || ahead == 0. || !fronts.carry(last.motion, carried))
       return false;
-    if (go(carried) < left_by_fronts * in_place)
-      return true;
-    go(last.motion);
-    return false;
+    const bool is_near = go(carried) < left_by_fronts * in_place;
+    if (!is_near)
+      go(last.motion);
+    return is_near;
   }
 
   template <int dim>
@@ -223,13 +224,6 @@ namespace perideal
   }
 
   template <int dim>
-  void ControlledNewton<dim>::go_back()
-  {
-    this->restore();
-    now = last.time;
-  }
-
-  template <int dim>
   bool ControlledNewton<dim>::correct(const double amount, const Slope slope, EquilibriumStep &result)
   {
     const bool secant = slope == Slope::secant, searches = !secant && this->bonds.softening_bonds().softens();
@@ -237,13 +231,13 @@ namespace perideal
     start = {displacement, now};
     prepare_loads();
     const double norm   = this->residual.l2_norm();
-    by_loads            = secant ? &by_secant : &by_tangent;
+    by_unit.used        = secant ? &by_unit.secant : &by_unit.tangent;
     const double of_all = of_loads.l2_norm();
     // The error of y counts by the change of t, which is about that of the iteration before.
     const double of_time =
       secant ? std::max(std::abs(now), control.small_time) : std::abs(previous.iteration);
     const double most = (secant ? of_secant : of_tangent) * (of_time > 0 ? norm / of_time : of_all);
-    if (!solve(*by_loads,
+    if (!solve(*by_unit.used,
                of_loads,
                std::max(secant ? most : std::min(most, of_tangent * of_all), least_left * of_all),
                result))
@@ -252,7 +246,7 @@ namespace perideal
     this->correction = 0.;
     if (secant)
       {
-        this->correction.add(now, *by_loads);
+        this->correction.add(now, *by_unit.used);
         for (std::size_t k = 0; k < held.mask().size(); ++k)
           if (!held.mask()[k])
             this->correction.local_element(k) -= displacement.local_element(k);

@@ -76,7 +76,11 @@ namespace perideal
     EquilibriumStep jump(const double time, const Progress &progress);
 
     /// Restores the last equilibrium, with its time.
-    void go_back();
+    void go_back()
+    {
+      this->restore();
+      now = last.time;
+    }
 
     /// Factor of the loads at the last equilibrium, and by how much the controlled quantity grew in the step
     /// that led there.
@@ -119,10 +123,17 @@ namespace perideal
 
     const Control control;
     double        most_by_loads = std::numeric_limits<double>::infinity();
-    /// The loads at the present time [N] and those a little later; y [m].
-    NodalVector  external, later, of_loads, by_secant, by_tangent, first_residual, carried;
-    NodalVector *by_loads = &by_secant;
-    double       now      = 0;
+    /// The loads at the present time [N] and those a little later, q [N]; the first residual of a linear
+    /// system [N]; the motion of the last step as it goes with the fronts [m].
+    NodalVector external, later, of_loads, first_residual, carried;
+    double      now = 0;
+    /// y by the secant and by the tangent, and the one in use [m].
+    struct ByUnitLoads
+    {
+      NodalVector  secant, tangent;
+      NodalVector *used = &secant;
+    };
+    ByUnitLoads by_unit;
     /// Where an iteration begins.
     struct Start
     {
