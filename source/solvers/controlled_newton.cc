@@ -17,11 +17,6 @@ namespace perideal
     /// Share of that which an iteration may be off: one at constant loads does not lead to an equilibrium
     /// from which a crack would run on.
     constexpr double of_iteration = 2e-3;
-    /// Largest step over the one before that a prediction extends.
-    constexpr double longest_prediction = 1.5;
-    /// What a prediction that goes with the fronts may leave of the residual of one in place, to be taken:
-    /// where cracks go on steadily it leaves .05 to .25, near the end of a body half, which no tangent mends.
-    constexpr double left_by_fronts = 1. / 3.;
     /// What solves with the secant and the tangent may leave of the residual: the secant itself leaves about
     /// .6 of it, the tangent little.
     constexpr double of_secant = 0.2, of_tangent = 0.01;
@@ -99,13 +94,14 @@ namespace perideal
   EquilibriumStep ControlledNewton<dim>::advance(const double amount, const Progress &progress)
   {
     this->start_in_place();
-    this->increment         = 0.;
-    this->breaks.in_step    = false;
-    const bool      is_near = predict(amount);
-    EquilibriumStep result;
-    const bool      softens   = this->bonds.softening_bonds().softens();
-    unsigned int    n_secants = softens && !control.gauge && !is_near ? first_secants : 0, since_progress = 0;
-    double          least_residual = std::numeric_limits<double>::max();
+    this->increment              = 0.;
+    this->breaks.in_step         = false;
+    const bool           is_near = predict(amount);
+    EquilibriumStep      result;
+    std::optional<Start> with_cells;
+    const bool           softens = this->bonds.softening_bonds().softens();
+    unsigned int n_secants = softens && !control.gauge && !is_near ? first_secants : 0, since_progress = 0;
+    double       least_residual = std::numeric_limits<double>::max();
     while (true)
       {
         const auto   norms     = this->measure(external);
@@ -120,6 +116,8 @@ namespace perideal
           {
             if (this->controls.bonds_break && this->extend_bonds())
               {
+                if (!with_cells)
+                  with_cells = Start{displacement, now};
                 since_progress = 0;
                 continue;
               }
@@ -136,8 +134,7 @@ namespace perideal
               {
                 last.note(norms);
                 this->balance(external, this->force, this->bonds.strain_energy());
-                last.note_step(this->increment, now);
-                keep_amount(change);
+                keep_step(change, with_cells);
                 result.converged = true;
                 return result;
               }
@@ -167,29 +164,6 @@ namespace perideal
   }
 
   template <int dim>
-  bool ControlledNewton<dim>::predict(const double amount)
-  {
-    const double ahead = previous.amount > 0 ? std::min(amount / previous.amount, longest_prediction) : 0.;
-    start.time         = last.time + ahead * last.time_change;
-    previous.iteration = 0.;
-    this->correction   = 0.;
-    const auto go      = [&](const NodalVector &motion) {
-      start.displacement = last.displacement;
-      start.displacement.add(ahead, motion);
-      place(0., 0.);
-      this->compute_residual(external);
-      return this->residual.l2_norm();
-    };
-    const double in_place = go(last.motion);
-    if (control.gauge || ahead == 0. || !fronts.carry(last.motion, carried))
-      return false;
-    const bool is_near = go(carried) < left_by_fronts * in_place;
-    if (!is_near)
-      go(last.motion);
-    return is_near;
-  }
-
-  template <int dim>
   EquilibriumStep ControlledNewton<dim>::load(const double time, const Progress &progress)
   {
     this->may_jump               = false;
@@ -212,15 +186,6 @@ namespace perideal
         keep_amount(control.gauge ? changed() : this->energy().dissipated - before);
       }
     return result;
-  }
-
-  template <int dim>
-  void ControlledNewton<dim>::keep_amount(const double change)
-  {
-    previous.amount = change;
-    previous.reading += change;
-    if (!control.gauge)
-      fronts.note(this->bonds.damage());
   }
 
   template <int dim>

@@ -3,6 +3,7 @@
 perideal_room(solvers
   SOURCES
     controlled_newton.cc
+    controlled_prediction.cc
     dynamic_relaxation.cc
     equilibrium_balance.cc
     equilibrium_path.cc

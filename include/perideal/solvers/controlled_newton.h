@@ -6,6 +6,7 @@
 #include <perideal/solvers/newton.h>
 
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace perideal
@@ -95,6 +96,13 @@ namespace perideal
     void resume(const NodalVector &external, const double time) override;
 
   private:
+    /// A place on the path.
+    struct Start
+    {
+      NodalVector displacement;
+      double      time = 0;
+    };
+
     void initialize();
     /// Starts along the way of the last step; returns whether it goes with the fronts of cracks, which leads
     /// near an equilibrium. Collective.
@@ -115,6 +123,10 @@ namespace perideal
     /// The change of t with which the controlled quantity is right after the whole x, where the body is left;
     /// not a number where there is none. Collective.
     double find_time_change(const double amount);
+    /// Keeps a step that has come to an equilibrium, as the next one may go on.
+    /// @param with_cells where it was before bonds took the place of cells in it, if they did: what the body
+    /// moved by that is no part of how the path goes on
+    void keep_step(const double change, const std::optional<Start> &with_cells);
     /// Keeps by how much the controlled quantity has grown to an equilibrium.
     void keep_amount(const double change);
 
@@ -134,12 +146,7 @@ namespace perideal
       NodalVector *used = &secant;
     };
     ByUnitLoads by_unit;
-    /// Where an iteration begins.
-    struct Start
-    {
-      NodalVector displacement;
-      double      time = 0;
-    };
+    /// Where the present iteration began.
     Start start;
     /// The controlled quantity at the last equilibrium and its change in the step there; by how much unit t
     /// changes it, as read last, or zero; the change of t in the last iteration of the step, or zero.
