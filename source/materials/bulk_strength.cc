@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace perideal
 {
@@ -36,7 +35,11 @@ namespace perideal
     for (unsigned int step = 0; step <= n_steps; ++step)
       strains[1 + step] =
         how.first * lowest * std::pow(highest / lowest, static_cast<double>(step) / n_steps);
-    double mean = 0;
+    std::array<double, n_steps + 2> inverse, left;
+    for (unsigned int k = 0; k < strains.size(); ++k)
+      inverse[k] = 1. / strains[k];
+    const SofteningLaw::Growing growing{strains.data(), inverse.data(), n_steps + 2};
+    double                      mean = 0;
     for (const auto &normal : normals)
       {
         // Four times the stress at a unit strain: the energies of both strains together, and apart.
@@ -50,17 +53,17 @@ namespace perideal
             // Along a bond, over the strain.
             const double stretch = (along - across) * bond / family.length_square[j],
                          square  = how.energy * squares[j];
-            const bool                           is_stable = how.law.is_stable(how.first, square);
-            std::optional<SofteningLaw::Opening> opening;
-            if (is_stable)
-              opening.emplace(how.law, how.first, square);
+            if (how.law.is_stable(how.first, square))
+              how.law.look_along(growing, stretch, how.first, square, left.data());
+            else
+              for (unsigned int step = 0; step < strains.size(); ++step)
+                left[step] = how.share(strains[step] * stretch, how.first, square);
+            const auto of_sum        = sum[0].part_of(j, (2. * along - across) * bond, 2. * along - across),
+                       of_difference = difference[0].part_of(j, across * bond, across);
             for (unsigned int step = 0; step < strains.size(); ++step)
               {
-                const double now = strains[step] * stretch;
-                const double left =
-                  is_stable && now > how.first ? opening->carried(now) : how.share(now, how.first, square);
-                sum[step].add(j, left, (2. * along - across) * bond, 2. * along - across);
-                difference[step].add(j, left, across * bond, across);
+                sum[step].add(of_sum, left[step]);
+                difference[step].add(of_difference, left[step]);
               }
           }
         const auto stress = [&](const unsigned int step) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/base/lanes.h>
 #include <perideal/materials/separation.h>
 
 #include <deal.II/base/numbers.h>
@@ -47,12 +48,14 @@ namespace perideal
                               const FamilyShape                     &shape,
                               const dealii::SymmetricTensor<2, dim> &by_normal)
     : family(family)
+    , coefficients(coefficients)
     , shape(shape)
     , by_normal(by_normal)
     , left(coefficients, shape)
     , place(family.size)
     , reach(family.size)
     , opening(family.size)
+    , parts(family.size)
   {
   }
 
@@ -84,6 +87,7 @@ namespace perideal
         const LocalIndex j          = across[k];
         const double     of_stretch = family.length_square[j] / reach[j];
         place[j]                    = k;
+        parts[j]                    = left.part_of(j, reach[j], normal);
         opening[j]                  = squares[j] * of_stretch * of_stretch;
       }
     order = across;
@@ -98,7 +102,7 @@ namespace perideal
           continue;
         left.clear();
         for (std::size_t k = 0; k < n; ++k)
-          left.add(across[k], 1., reach[across[k]], normal);
+          left.add(parts[across[k]], 1.);
         double twice = left.twice();
         for (auto first = order.begin(); first != order.end();)
           {
@@ -108,7 +112,7 @@ namespace perideal
             for (; end != order.end() && opening[*end] <= (1. + 1e-9) * opening[*first]; ++end)
               if (place[*end] < n)
                 {
-                  left.add(*end, -1., reach[*end], normal);
+                  left.add(parts[*end], -1.);
                   ++count;
                 }
             const double after = left.twice();
@@ -230,8 +234,8 @@ namespace perideal
     {
       double first, square, of_opening;
       bool   softens;
-      /// Stretches where it begins to go, and where it has gone.
-      double begin, end;
+      /// Stretch where it has gone.
+      double end;
     };
     std::vector<Bond> bonds_across;
     bonds_across.reserve(across.size());
@@ -244,39 +248,52 @@ namespace perideal
         bond.first      = how.first > 0 ? how.first : how.first_share * std::sqrt(bond.square);
         bond.of_opening = reach[j] / family.length_square[j];
         bond.softens    = how.law.is_stable(bond.first, bond.square);
-        bond.begin      = bond.softens ? bond.first : std::sqrt(bond.square);
-        bond.end        = bond.softens ? how.law.last(bond.first, bond.square) : bond.begin;
-        lowest          = std::min(lowest, bond.begin / bond.of_opening);
+        bond.end        = bond.softens ? how.law.last(bond.first, bond.square) : std::sqrt(bond.square);
+        lowest          = std::min(lowest, (bond.softens ? bond.first : bond.end) / bond.of_opening);
         highest         = std::max(highest, bond.end / bond.of_opening);
         bonds_across.push_back(bond);
       }
     if (!(highest > 0) || !(lowest > 0))
       return 0;
-    const double                    width = std::log(highest / lowest) / n_steps;
-    std::array<double, n_steps + 1> openings, energies = {};
-    for (unsigned int step = 0; step <= n_steps; ++step)
-      // Below the first point all bonds are whole, and W grows with w^2.
-      openings[step] = step == 0 ? lowest : lowest * std::exp((step - 0.5) * width);
-    left.clear();
-    std::vector<FamilyEnergy<dim>> left_at(openings.size(), left);
+    const double                 width   = std::log(highest / lowest) / n_steps;
+    constexpr unsigned int       n_lanes = 4, n_groups = n_steps / n_lanes + 1, n_points = n_lanes * n_groups;
+    std::array<double, n_points> openings, inverse, left_of_bond;
+    // Below the first point all bonds are whole, and W grows with w^2; behind the last none is left.
+    const double ratio = std::exp(width), inverse_ratio = 1. / ratio;
+    openings[0] = lowest;
+    openings[1] = lowest * std::exp(0.5 * width);
+    inverse[0]  = 1. / openings[0];
+    inverse[1]  = 1. / openings[1];
+    for (unsigned int k = 2; k < n_points; ++k)
+      {
+        openings[k] = ratio * openings[k - 1];
+        inverse[k]  = inverse_ratio * inverse[k - 1];
+      }
+    const SofteningLaw::Growing           opening{openings.data(), inverse.data(), n_points};
+    std::vector<FamilyEnergy<dim, Lanes>> left_at(n_groups, FamilyEnergy<dim, Lanes>(coefficients, shape));
+    std::array<Lanes, n_groups>           energies = {};
     for (std::size_t n = 0; n < across.size(); ++n)
       {
-        const LocalIndex      j     = across[n];
-        const Bond           &bond  = bonds_across[n];
-        const double          layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
-        SofteningLaw::Opening opening(how.law, bond.first, bond.square);
-        for (unsigned int step = 0; step <= n_steps; ++step)
+        const LocalIndex j     = across[n];
+        const Bond      &bond  = bonds_across[n];
+        const double     layer = reach[j] - (n + 1 < across.size() ? reach[across[n + 1]] : 0.);
+        if (bond.softens)
+          how.law.look_along(opening, bond.of_opening, bond.first, bond.square, left_of_bond.data());
+        else
+          for (unsigned int k = 0; k < n_points; ++k)
+            left_of_bond[k] = openings[k] * bond.of_opening < bond.end ? 1. : 0.;
+        const auto part = left_at[0].part_of(j, reach[j], normal);
+        for (unsigned int g = 0; g < n_groups; ++g)
           {
-            if (const double stretch = openings[step] * bond.of_opening; stretch < bond.end)
-              left_at[step].add(
-                j, bond.softens && stretch > bond.begin ? opening.carried(stretch) : 1., reach[j], normal);
-            if (layer > 0)
-              energies[step] += layer * left_at[step].twice();
+            Lanes share;
+            load(share, &left_of_bond[n_lanes * g]);
+            left_at[g].add(part, share);
+            energies[g] += layer * left_at[g].twice();
           }
       }
     double work = 0;
-    for (unsigned int step = 0; step <= n_steps; ++step)
-      work += (step == 0 ? 0.5 : width) * openings[step] * openings[step] * energies[step];
+    for (unsigned int k = 0; k <= n_steps; ++k)
+      work += (k == 0 ? 0.5 : width) * openings[k] * openings[k] * energies[k / n_lanes][k % n_lanes];
     return work / (family.node_volume * how.energy);
   }
 

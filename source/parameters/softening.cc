@@ -71,4 +71,33 @@ namespace perideal
     const double carried = ((line - 1)->second * first + share * change) / stretch;
     return {carried, (change / (end - begin) - carried) / stretch};
   }
+
+  void SofteningLaw::look_along(const Growing &stretches,
+                                const double   scale,
+                                const double   first,
+                                const double   brittle_square,
+                                double        *result) const
+  {
+    unsigned int k = 0;
+    // Whole up to s_0, and where a line of the curve has g = slope + constant/s, up to its end.
+    const auto fill = [&](const double end, const double slope, const double constant) {
+      const double last = end / scale, over = constant / scale;
+      for (; k < stretches.n && stretches.unit[k] < last; ++k)
+        result[k] = slope + over * stretches.inverse[k];
+    };
+    if (scale > 0)
+      {
+        for (const double last = first / scale; k < stretches.n && stretches.unit[k] <= last; ++k)
+          result[k] = 1.;
+        double begin = first;
+        for (auto point = curve.begin(); point + 1 != curve.end() && k < stretches.n; ++point)
+          {
+            const double end   = stretch_at(*(point + 1), first, brittle_square),
+                         slope = first * ((point + 1)->second - point->second) / (end - begin);
+            fill(end, slope, first * point->second - slope * begin);
+            begin = end;
+          }
+      }
+    std::fill(result + k, result + stretches.n, scale > 0 ? 0. : 1.);
+  }
 } // namespace perideal

@@ -12,10 +12,19 @@
 namespace perideal
 {
   /// Adds up what bonds of a family store (FamilyCoefficients), each with what is left of its weights.
-  template <int dim>
+  /// @tparam Number double, or Lanes for four states at once
+  template <int dim, typename Number = double>
   class FamilyEnergy
   {
   public:
+    /// What a whole bond adds: to the sums of the family and its own force weights, and twice the energy that
+    /// it stores by itself.
+    struct Part
+    {
+      std::array<double, 2> sums  = {{0., 0.}};
+      double                force = 0., own = 0.;
+    };
+
     /// The coefficients must outlive this object.
     FamilyEnergy(const FamilyCoefficients &coefficients, const FamilyShape &shape)
       : coefficients(coefficients)
@@ -25,23 +34,35 @@ namespace perideal
 
     void clear()
     {
-      sums  = {{0., 0.}};
-      force = own = 0.;
+      sums  = {};
+      force = own = Number();
     }
 
-    /// Adds a share of a member's bond; a negative one takes it away.
+    /// The part of a member's bond.
     /// @param eta by which its ends move apart @param eps eta times the bond
-    void add(const LocalIndex j, const double share, const double eps, const dealii::Tensor<1, dim> &eta)
+    Part part_of(const LocalIndex j, const double eps, const dealii::Tensor<1, dim> &eta) const
+    {
+      Part result;
+      for (unsigned int a = 0; a < shape.n_sums; ++a)
+        result.sums[a] = coefficients.sum[a][j] * eps;
+      if (shape.own_force_weights)
+        result.force = coefficients.force_weight[0][j] * eps;
+      result.own = twice_of(j, eps, eta);
+      return result;
+    }
+
+    /// Adds a share of a bond; a negative one takes it away.
+    void add(const Part &part, const Number &share)
     {
       for (unsigned int a = 0; a < shape.n_sums; ++a)
-        sums[a] += share * coefficients.sum[a][j] * eps;
+        sums[a] += share * part.sums[a];
       if (shape.own_force_weights)
-        force += share * coefficients.force_weight[0][j] * eps;
-      own += share * twice_of(j, eps, eta);
+        force += share * part.force;
+      own += share * part.own;
     }
 
     /// Returns twice the energy.
-    double twice() const
+    Number twice() const
     {
       if (shape.own_force_weights)
         return own + 2. * sums[0] * (force + coefficients.energy * sums[0]);
@@ -63,8 +84,8 @@ namespace perideal
 
     const FamilyCoefficients &coefficients;
     const FamilyShape         shape;
-    std::array<double, 2>     sums  = {{0., 0.}};
-    double                    force = 0., own = 0.;
+    std::array<Number, 2>     sums  = {};
+    Number                    force = Number(), own = Number();
   };
 } // namespace perideal
 

@@ -112,14 +112,17 @@ namespace perideal
     double softened_side(const Vector &normal, const std::vector<double> &squares, const BondFailing &how);
     /// Falls of the energy of planes of which the family lies on one side.
     void add_side(const Vector &normal, const std::vector<double> &squares, std::vector<double> &by_member);
+
     const FamilyView<dim>                &family;
+    const FamilyCoefficients             &coefficients;
     const FamilyShape                     shape;
     const dealii::SymmetricTensor<2, dim> by_normal;
     FamilyEnergy<dim>                     left;
     /// Work space: members across, the farthest first, and in the order in which they break; by member, p,
-    /// the place in the first of these lists, and the square of the opening of the break.
-    std::vector<LocalIndex> across, order, place;
-    std::vector<double>     reach, opening;
+    /// the place in the first of these lists, the square of the opening of the break, and what it stores.
+    std::vector<LocalIndex>                       across, order, place;
+    std::vector<double>                           reach, opening;
+    std::vector<typename FamilyEnergy<dim>::Part> parts;
   };
 } // namespace perideal
 

@@ -71,40 +71,21 @@ namespace perideal
       return look_at(stretch, first, brittle_square).carried;
     }
 
-    /// Returns carried() of stretches that grow, beyond s_0: each looks for its place on the curve from that
-    /// of the last one.
-    class Opening
+    /// Stretches that grow, over a scale: s = scale unit.
+    struct Growing
     {
-    public:
-      /// @param law of bonds that soften; must outlive this object
-      Opening(const SofteningLaw &law, const double first, const double brittle_square)
-        : law(law)
-        , first(first)
-        , brittle_square(brittle_square)
-        , next(law.curve.begin() + 1)
-        , end(first)
-      {
-      }
-
-      double carried(const double stretch)
-      {
-        for (; end <= stretch && next != law.curve.end(); ++next)
-          {
-            begin = std::exchange(end, law.stretch_at(*next, first, brittle_square));
-            force = first * (next - 1)->second;
-            slope = (first * next->second - force) / (end - begin);
-          }
-        return end <= stretch ? 0. : (force + slope * std::max(0., stretch - begin)) / stretch;
-      }
-
-    private:
-      const SofteningLaw &law;
-      const double        first, brittle_square;
-      /// The line that is looked at: the point behind its end, its stretches, and the force over the
-      /// stiffness where it begins, with its slope.
-      Curve::const_iterator next;
-      double                end, begin = 0, force = 0, slope = 0;
+      /// In ascending order, and one over each, which is looked at beyond s_0 only.
+      const double *unit, *inverse;
+      unsigned int  n;
     };
+
+    /// Sets g of stretches that grow [-]: 1 up to s_0, 0 where the bond is broken.
+    /// @param scale of the stretches; where it is not above 0 the bond stays whole
+    void look_along(const Growing &stretches,
+                    const double   scale,
+                    const double   first,
+                    const double   brittle_square,
+                    double        *result) const;
 
     /// Returns dg/ds [-] where the stretch is the largest so far.
     double slope(const double stretch, const double first, const double brittle_square) const

@@ -52,14 +52,23 @@ TEST(Softening, FollowsABondAsItOpens)
     for (const unsigned int n : {7u, 1000u})
       {
         SCOPED_TRACE(name);
-        const SofteningLaw    law((Softening(name)));
-        const double          first = s_d / 2., last = law.last(first, s_d * s_d);
-        SofteningLaw::Opening opening(law, first, s_d * s_d);
-        for (unsigned int k = 1; k <= n; ++k)
+        const SofteningLaw  law((Softening(name)));
+        const double        first = s_d / 2., last = law.last(first, s_d * s_d), scale = 0.7;
+        std::vector<double> unit, inverse, result(n, -1.);
+        for (unsigned int k = 0; k < n; ++k)
           {
-            const double stretch = first + (1.1 * last - first) * k / n;
-            EXPECT_NEAR(opening.carried(stretch), law.carried(stretch, first, s_d * s_d), 1e-13);
+            unit.push_back(1.1 * last / scale * k / n);
+            inverse.push_back(1. / unit.back());
           }
+        law.look_along({unit.data(), inverse.data(), n}, scale, first, s_d * s_d, result.data());
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            const double stretch = scale * unit[k];
+            EXPECT_NEAR(result[k], stretch > first ? law.carried(stretch, first, s_d * s_d) : 1., 1e-13);
+          }
+        // Pressed together it stays whole.
+        law.look_along({unit.data(), inverse.data(), n}, -scale, first, s_d * s_d, result.data());
+        EXPECT_EQ(result, std::vector<double>(n, 1.));
       }
 }
 
