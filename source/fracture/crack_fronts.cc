@@ -7,9 +7,9 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <iterator>
-#include <limits>
+#include <utility>
 
 namespace perideal
 {
@@ -37,6 +37,22 @@ namespace perideal
       std::vector<std::size_t> found;
       tree.query(boost::geometry::index::nearest(point, 1), std::back_inserter(found));
       return found.front();
+    }
+
+    /// The ways to some places from the nearest ones before; zero where it is farther than a reach [m].
+    template <int dim>
+    std::vector<dealii::Tensor<1, dim>> ways_between(const std::vector<dealii::Point<dim>> &before,
+                                                     const std::vector<dealii::Point<dim>> &now,
+                                                     const double                           reach)
+    {
+      std::vector<dealii::Tensor<1, dim>> result;
+      const auto                          tree = dealii::pack_rtree_of_indices(before);
+      for (const auto &place : now)
+        {
+          const auto way = place - before[nearest(tree, place)];
+          result.push_back(way.norm() <= reach ? way : dealii::Tensor<1, dim>());
+        }
+      return result;
     }
   } // namespace
 
@@ -128,20 +144,12 @@ namespace perideal
     const Fronts now = find(lost), before = find(lost_before);
     if (now.points.empty() || before.points.empty())
       return false;
-    std::vector<dealii::Tensor<1, dim>> shift;
-    const auto                          centres = dealii::pack_rtree_of_indices(before.centres);
-    for (const auto &centre : now.centres)
-      shift.push_back(centre - before.centres[nearest(centres, centre)]);
-
     // Where motion goes with a front, and from where it may come.
     const double reach   = outermost * now.horizon;
+    const auto   ways    = ways_between(before.centres, now.centres, reach);
     double       longest = 0;
-    for (auto &way : shift)
-      {
-        if (way.norm() > reach)
-          way = 0.;
-        longest = std::max(longest, way.norm());
-      }
+    for (const auto &way : ways)
+      longest = std::max(longest, way.norm());
     if (longest == 0.)
       return false;
     struct Moved
@@ -169,10 +177,10 @@ namespace perideal
         for (int d = 0; d < dim; ++d)
           value[d] = motion.local_element(dim * i + d);
         own.emplace_back(x, value);
-        if (distance < reach && shift[now.front[k]].norm() > 0)
+        if (distance < reach && ways[now.front[k]].norm() > 0)
           moved.push_back({i,
                            std::min(1., (outermost - distance / now.horizon) / (outermost - whole)),
-                           shift[now.front[k]]});
+                           ways[now.front[k]]});
       }
     std::vector<dealii::Point<dim>>     points;
     std::vector<dealii::Tensor<1, dim>> values;

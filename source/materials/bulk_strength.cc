@@ -35,8 +35,8 @@ namespace perideal
     for (unsigned int step = 0; step <= n_steps; ++step)
       strains[1 + step] =
         how.first * lowest * std::pow(highest / lowest, static_cast<double>(step) / n_steps);
-    std::array<double, n_steps + 2> inverse, left;
-    for (unsigned int k = 0; k < strains.size(); ++k)
+    std::array<double, n_steps + 2> inverse = {}, left;
+    for (unsigned int k = 1; k < strains.size(); ++k)
       inverse[k] = 1. / strains[k];
     const SofteningLaw::Growing growing{strains.data(), inverse.data(), n_steps + 2};
     double                      mean = 0;

@@ -58,7 +58,7 @@ TEST(Softening, FollowsABondAsItOpens)
         for (unsigned int k = 0; k < n; ++k)
           {
             unit.push_back(1.1 * last / scale * k / n);
-            inverse.push_back(1. / unit.back());
+            inverse.push_back(k > 0 ? 1. / unit.back() : 0.);
           }
         law.look_along({unit.data(), inverse.data(), n}, scale, first, s_d * s_d, result.data());
         for (unsigned int k = 0; k < n; ++k)
