@@ -45,7 +45,7 @@ SPECIMENS = {
               "five rows; that of springs stops, and the strip tears along the edges held, where families lack bonds."),
     "slit_square": (cracks.slit_square,
                     "on 64 cells the horizon is a tenth of the slit, and the ends of the crack cost 3 % of it. Where the crack comes "
-                    "through, in the last five steps, a step takes up to 61 iterations, with those of attempts that are halved."),
+                    "through, in the last five steps, a step takes up to 61 iterations."),
     "branching": (dynamics.branching,
                   "with a horizon of 3.01 cells cracks take 7 to 16 % too much while they run straight, widen at x = 68 to 72 mm, "
                   "and branch late or not at all, on 0.125 mm no better (4.01: 4 to 5 % too much, no branches either). Bonds that "
