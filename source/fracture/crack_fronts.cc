@@ -24,10 +24,9 @@ namespace perideal
     template <int dim>
     dealii::BoundingBox<dim> box_around(const dealii::Point<dim> &point, const double reach)
     {
-      dealii::Tensor<1, dim> step;
-      for (int d = 0; d < dim; ++d)
-        step[d] = reach;
-      return dealii::BoundingBox<dim>({point - step, point + step});
+      dealii::BoundingBox<dim> box({point, point});
+      box.extend(reach);
+      return box;
     }
 
     /// The index of the point that is nearest to another one.

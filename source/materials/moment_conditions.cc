@@ -93,6 +93,9 @@ namespace perideal
 
     /// Relative size of eigenvalues that count as zero in the pseudo-inverse.
     constexpr double rank_tolerance = 1e-10;
+
+    /// Length over the horizon up to which a family has no extent but rounding in a direction.
+    constexpr double flat_tolerance = 1e-10;
   } // namespace
 
   template <int dim, int order>
@@ -103,17 +106,26 @@ namespace perideal
     horizon_square       = family.horizon * family.horizon;
     volume               = Array(family.volume.data(), n);
     monomials.resize(n, n_conditions);
-    const Array length_square(family.length_square.data(), n);
+    const Array           length_square(family.length_square.data(), n);
+    std::array<bool, dim> is_flat;
+    for (int d = 0; d < dim; ++d)
+      is_flat[d] = !(Array(family.bond[d].data(), n).abs() > flat_tolerance * family.horizon).any();
     for (int k = 0; k < n_conditions; ++k)
       {
         const auto &factors = MonomialsOfOrder<dim, order>::factors[k];
         auto        column  = monomials.col(k).array();
+        target[k]           = target_of(factors) / horizon_square;
+        if (std::any_of(std::begin(factors), std::end(factors), [&](const int d) { return is_flat[d]; }))
+          {
+            // A condition that its bonds cannot meet, as where all of them lie in a plane to the last bit.
+            column = 0.;
+            continue;
+          }
         column = Array(family.bond[factors[0]].data(), n) * Array(family.bond[factors[1]].data(), n);
         if constexpr (order == 4)
           column *= Array(family.bond[factors[2]].data(), n) * Array(family.bond[factors[3]].data(), n) /
                     length_square;
         column /= horizon_square;
-        target[k] = target_of(factors) / horizon_square;
       }
     gram    = sum_of_products(volume);
     scaling = gram.diagonal().array().max(1e-300).sqrt().inverse();

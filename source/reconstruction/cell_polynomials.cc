@@ -28,6 +28,7 @@ namespace perideal
             const bool                share_equal)
       : result(result)
       , graph(result.cells)
+      , volume(graph.with_ghosts(result.volume))
       , stiffness(stiffness)
       , is_cut(is_cut)
       , rounding(coordinate_rounding(result.centroid))
@@ -79,6 +80,8 @@ namespace perideal
             record.push_back({other.distance[d], of_length});
           if (result.unknown == CellUnknown::mean)
             add_moment(other.second_moment);
+          else
+            record.push_back({other.share, 4. * dim * of_length / size});
         }
       std::size_t &result_of = equal.place_of(record);
       if (!equal.is_looking())
@@ -91,7 +94,7 @@ namespace perideal
     {
       // A wider stencil of a thin body sees how it is curved and no more.
       const auto surfaces = ends(cell);
-      if (!stiffness || !fit.is_solid() || !fit.misses_only_across(surfaces))
+      if (!fit.is_solid() || !fit.misses_only_across(surfaces))
         {
           const unsigned int n_determined = fit.n_determined();
           const Stencil      wider        = with_ring(cell, stencil);
@@ -231,12 +234,23 @@ namespace perideal
     /// lengthen it by a further 20 % and treble the error of that speed at 12 cells a wave.
     double decay() const { return result.unknown == CellUnknown::value ? 0.1 : 0.5; }
 
+    /// In motion cells smaller than that in the middle weigh by the square of the ratio of volumes. Else the
+    /// energy of a large cell would be that of a few light nodes on one side of it, which in strips and
+    /// plates two cells thick shortens the stable step to .65 and .5; what only they know of it is left out.
+    /// With weights by the ratio itself, strips would keep a step of .83. Means are fitted to all cells
+    /// alike: the error of a plate with a hole on an adapted mesh is .9 times that with such weights.
+    double share_of(const LocalIndex k) const
+    {
+      const double ratio = volume[k] / volume[node];
+      return result.unknown == CellUnknown::mean ? 1. : std::min(1., ratio * ratio);
+    }
+
     void collect(const Stencil &stencil)
     {
       others.clear();
       for (const LocalIndex k : stencil)
         if (k != node)
-          others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k)});
+          others.push_back({result.centroid[k] - result.centroid[node], moment_of_unknown(k), share_of(k)});
     }
 
     void fit_to(const Stencil &stencil)
@@ -245,8 +259,10 @@ namespace perideal
       fit.reinit(moment_of_unknown(node), others, result.moments[node], decay());
     }
 
-    CellPolynomials                              &result;
-    const CellGraph<dim>                         &graph;
+    CellPolynomials      &result;
+    const CellGraph<dim> &graph;
+    /// Of cells, those of other ranks included [m^3].
+    std::vector<double>                           volume;
     const Stiffness                              &stiffness;
     const BondPredicate<dim>                     &is_cut;
     LocalIndex                                    node = 0;

@@ -104,7 +104,7 @@ namespace perideal
       {
         const Eigen::Matrix<double, dim, 1> y = metric * to_eigen(others[k].distance);
         means_about(y, others[k].second_moment, means);
-        weight[k] = std::exp(-0.5 * decay * y.squaredNorm()); // the root of the weight
+        weight[k] = std::sqrt(others[k].share) * std::exp(-0.5 * decay * y.squaredNorm()); // the root
         for (unsigned int t = 0; t < n_terms; ++t)
           rows_of_means(k, t) = weight[k] * (means[t] - at_middle[t]);
       }

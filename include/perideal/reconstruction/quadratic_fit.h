@@ -18,8 +18,8 @@ namespace perideal
    * Fits quadratics to the means of cells around one of them, whose mean they keep (CellPolynomials).
    *
    * Distances are measured with the inverse covariance of the stencil, so that stretched and sheared cells
-   * weigh as their undeformed images would; weights are exp(-decay |y|^2). Linear terms are fitted first and
-   * quadratics to what they leave, so that these stay exact where the cells do not determine those.
+   * weigh as their undeformed images would; weights are share exp(-decay |y|^2). Linear terms are fitted
+   * first and quadratics to what they leave, so that these stay exact where the cells do not determine those.
    */
   template <int dim>
   class QuadraticFit
@@ -29,11 +29,12 @@ namespace perideal
     using Terms                           = std::array<double, n_terms>;
 
     /// A cell of the stencil: distance of its centroid from that of the cell in the middle [m], mean of the
-    /// squares of distances from its own [m^2].
+    /// squares of distances from its own [m^2], share of the weight that its distance gives it.
     struct Cell
     {
       dealii::Tensor<1, dim>          distance;
       dealii::SymmetricTensor<2, dim> second_moment;
+      double                          share = 1.;
     };
 
     /// @param own second moment of the cell in the middle, or zero where values stand for means

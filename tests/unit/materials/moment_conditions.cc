@@ -150,6 +150,32 @@ TEST(MomentConditions, ThinPlatesAreReportedSingular)
     EXPECT_TRUE(model.weigh(view(*body.families, i), wh, wd).singular);
 }
 
+TEST(MomentConditions, RoundingOfCoordinatesIsNoThickness)
+{
+  const auto          mesh = test::make_box<3>({6, 6, 1}, {1., 1., 1. / 6}, 0.);
+  const test::Body<3> plane(*mesh);
+  dealii::GridTools::transform(
+    [](const dealii::Point<3> &vertex) {
+      dealii::Point<3> moved = vertex;
+      moved[2] += 1e-15 * test::scatter(vertex, 2);
+      return moved;
+    },
+    mesh->triangulation);
+  const test::Body<3> rounded(*mesh);
+  ExtendedOrdinary<3> model(ExtendedOrdinary<3>::Form::energy, InfluenceFunction("constant"), 1.);
+  std::vector<double> wh, wd, rounded_wh, rounded_wd;
+  for (LocalIndex i = 0; i < plane.nodes.size(); ++i)
+    {
+      model.weigh(view(*plane.families, i), wh, wd);
+      EXPECT_TRUE(model.weigh(view(*rounded.families, i), rounded_wh, rounded_wd).singular);
+      for (std::size_t k = 0; k < wh.size(); ++k)
+        {
+          EXPECT_NEAR(rounded_wh[k], wh[k], 1e-9 * std::abs(wh[k]) + 1e-9);
+          EXPECT_NEAR(rounded_wd[k], wd[k], 1e-9 * std::abs(wd[k]) + 1e-9);
+        }
+    }
+}
+
 TEST(MomentConditions, ThicknessLeavesTheAnswerAlone)
 {
   const auto          mesh = test::make_box<2>({7, 7}, {1., 1.}, 0.2);
