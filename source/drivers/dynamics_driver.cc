@@ -174,9 +174,6 @@ namespace perideal
             steps.resume(solver, steps.size / steps.parts);
             dynamics->divide_steps(steps.parts);
           }
-        // Bonds as the last step found them, so that a restart changes the mesh where the run would.
-        if (is_restart && this->adaptation.looks_at(dynamics->step()))
-          this->adaptation.look_at_bonds(dynamics->displacement_before());
         if (is_restart && mesh_is_due())
           return StepsEnd::mesh_changes;
         if (!problem.loading.supports->hold_nodes())

@@ -70,34 +70,18 @@ namespace perideal
   }
 
   template <int dim>
-  void MeshAdaptation<dim>::look_at_bonds(const NodalVector &displacement)
-  {
-    BondForce<dim> &bonds = *problem.force;
-    NodalVector     force;
-    bonds.initialize(force);
-    bonds.judge_bonds(Judgement::none);
-    bonds.compute(force, displacement);
-    bonds.judge_bonds(Judgement::for_good);
-  }
-
-  template <int dim>
   bool MeshAdaptation<dim>::is_due_in_motion(const std::uint64_t step,
                                              const double        time,
                                              const NodalVector  &displacement)
   {
     if (!looks_at(step))
       return false;
-    {
-      // A step of the smallest cells changes strains little: where the last one found no need, there is none.
-      const Timings::Scope scope(problem.run.timings, "adaptation");
-      change.need = std::make_unique<MeshNeed<dim>>(problem, time);
-      if (!has_urgent_cells())
-        {
-          change = {};
-          return false;
-        }
-      look_at_bonds(displacement);
-    }
+    BondForce<dim> &bonds = *problem.force;
+    NodalVector     force;
+    bonds.initialize(force);
+    bonds.judge_bonds(Judgement::none);
+    bonds.compute(force, displacement);
+    bonds.judge_bonds(Judgement::for_good);
     return is_due(step, time);
   }
 

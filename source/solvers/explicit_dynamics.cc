@@ -171,14 +171,6 @@ namespace perideal
   }
 
   template <int dim>
-  NodalVector ExplicitDynamics<dim>::displacement_before() const
-  {
-    NodalVector result(displacement);
-    result.add(-scheme.time_step, velocity);
-    return result;
-  }
-
-  template <int dim>
   void ExplicitDynamics<dim>::register_state(LastingState &state)
   {
     state.add_node_array("displacement", "m", dim, displacement);

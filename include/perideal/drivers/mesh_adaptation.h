@@ -49,11 +49,7 @@ namespace perideal
       return adaptation.is_by_need() && step % adaptation.interval == 0;
     }
 
-    /// Finds out how bonds stand at a displacement of owned nodes [m], of which none breaks by that.
-    /// Collective.
-    void look_at_bonds(const NodalVector &displacement);
-
-    /// is_due() of a motion at a displacement of owned nodes [m]. Bonds stand as its last step found them.
+    /// is_due() of a motion, whose bonds it looks at as a displacement of owned nodes finds them [m].
     /// Collective.
     bool is_due_in_motion(const std::uint64_t step, const double time, const NodalVector &displacement);
 

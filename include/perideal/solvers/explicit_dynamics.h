@@ -105,8 +105,6 @@ namespace perideal
 
     /// Advances by one step.
     void advance();
-    /// Where nodes were before the last step [m].
-    NodalVector displacement_before() const;
 
     /// Registers what the next step needs of this one, after advance().
     void register_state(LastingState &state);
