@@ -238,7 +238,8 @@ namespace perideal
     /// energy of a large cell would be that of a few light nodes on one side of it, which in strips and
     /// plates two cells thick shortens the stable step to .65 and .5; what only they know of it is left out.
     /// With weights by the ratio itself, strips would keep a step of .83. Means are fitted to all cells
-    /// alike: the error of a plate with a hole on an adapted mesh is .9 times that with such weights.
+    /// alike: with such weights a plate with a hole takes 6,369 cells instead of 5,004 where it is adapted to
+    /// an error.
     double share_of(const LocalIndex k) const
     {
       const double ratio = volume[k] / volume[node];
