@@ -2,6 +2,7 @@
 #ifndef perideal_tests_unit_moments_h
 #define perideal_tests_unit_moments_h
 
+#include <perideal/materials/models.h>
 #include <perideal/operators/linear/consistent_operator.h>
 
 #include <memory>
@@ -40,6 +41,24 @@ namespace perideal::test
       families,
       moments,
       std::make_shared<ConsistentBonds<dim>>(families, moments->cell_polynomials(), model, solid_of, is_cut),
+      solid_of);
+  }
+  /// The same in motion, where values at centroids are the unknowns. Collective.
+  template <int dim>
+  std::shared_ptr<ConsistentOperator<dim>>
+  make_moving_operator(const Mesh<dim>                            &mesh,
+                       const Nodes<dim>                           &nodes,
+                       const std::shared_ptr<const Families<dim>> &families,
+                       const double                                horizon_factor,
+                       const SolidOf<dim>                         &solid_of)
+  {
+    ModelParameters parameters;
+    parameters.resolve(dim, ModelParameters::Use::motion, true);
+    return make_consistent_operator<dim>(
+      families,
+      make_moments(
+        mesh, nodes, std::make_shared<const FaceValues<dim>>(), BondPredicate<dim>(), CellUnknown::value),
+      create_consistent<dim>(parameters, horizon_factor),
       solid_of);
   }
 } // namespace perideal::test

@@ -33,7 +33,8 @@ namespace perideal
    * of weighted least squares with the means of the monomials over each cell: exact for quadratic fields on
    * any mesh. Or it fits values at the centroids, in the same way without means of m_t: so in motion, where
    * the kinetic energy of a plane wave is that of masses with these values up to fourth order, of masses with
-   * the means up to second; weights are nearly even then, which bounds the largest eigenvalue.
+   * the means up to second; weights are nearly even then, but less for cells smaller than that in the middle,
+   * which bounds the largest eigenvalue.
    *
    * The stencil has the cells of the same material that share a vertex with the cell, and where a face lies
    * at the boundary or at another material, those around the cell behind it. Where they do not determine all

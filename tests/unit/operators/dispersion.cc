@@ -25,17 +25,8 @@ namespace
       , body(*mesh, 2.01)
       , constants{70e9, 0.25, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid}
     {
-      ModelParameters parameters;
-      parameters.resolve(dim, ModelParameters::Use::motion, true);
-      bonds =
-        test::make_consistent_operator<dim>(body.families,
-                                            test::make_moments(*mesh,
-                                                               body.nodes,
-                                                               std::make_shared<const FaceValues<dim>>(),
-                                                               BondPredicate<dim>(),
-                                                               CellUnknown::value),
-                                            create_consistent<dim>(parameters, 2.01),
-                                            [this](const auto) { return ElasticSolid<dim>(constants); });
+      bonds = test::make_moving_operator<dim>(
+        *mesh, body.nodes, body.families, 2.01, [this](const auto) { return ElasticSolid<dim>(constants); });
       bonds->initialize(force);
       bonds->initialize(displacement);
       for (int d = 0; d < dim; ++d)
@@ -153,21 +144,12 @@ namespace
     const ElasticConstants constants{
       70e9, 0.25, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid};
     const auto      solid_of = [&](const auto) { return ElasticSolid<dim>(constants); };
-    ModelParameters of_faces, of_bonds;
+    ModelParameters of_bonds;
     test::Body<dim> near(*mesh, 2.01), far(*mesh, 3.01);
-    of_faces.resolve(dim, ModelParameters::Use::motion, true);
     of_bonds.form = "energy";
     of_bonds.resolve(dim, ModelParameters::Use::motion, true);
     const double of_consistent = largest_frequency<dim>(
-      *test::make_consistent_operator<dim>(near.families,
-                                           test::make_moments(*mesh,
-                                                              near.nodes,
-                                                              std::make_shared<const FaceValues<dim>>(),
-                                                              BondPredicate<dim>(),
-                                                              CellUnknown::value),
-                                           create_consistent<dim>(of_faces, 2.01),
-                                           solid_of),
-      near.nodes.volume);
+      *test::make_moving_operator<dim>(*mesh, near.nodes, near.families, 2.01, solid_of), near.nodes.volume);
     const double of_energy = largest_frequency<dim>(
       *create_bond_operator<dim>(far.families, *create_model<dim>(of_bonds, 1.), solid_of), far.nodes.volume);
     EXPECT_GE(of_energy / of_consistent, least);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <perideal/materials/models.h>
 #include <perideal/operators/system/stable_time_step.h>
 #include <perideal/parameters/elastic_constants.h>
 
@@ -43,17 +42,8 @@ namespace
     const test::Body<dim>  body(*mesh, 2.01);
     const ElasticConstants constants{
       1., 0.25, dim == 2 ? PlaneAssumption::plane_strain : PlaneAssumption::solid};
-    ModelParameters parameters;
-    parameters.resolve(dim, ModelParameters::Use::motion, true);
-    const auto bonds =
-      test::make_consistent_operator<dim>(body.families,
-                                          test::make_moments(*mesh,
-                                                             body.nodes,
-                                                             std::make_shared<const FaceValues<dim>>(),
-                                                             BondPredicate<dim>(),
-                                                             CellUnknown::value),
-                                          create_consistent<dim>(parameters, 2.01),
-                                          [&](const auto) { return ElasticSolid<dim>(constants); });
+    const auto bonds = test::make_moving_operator<dim>(
+      *mesh, body.nodes, body.families, 2.01, [&](const auto) { return ElasticSolid<dim>(constants); });
     const ConstrainedOperator<dim> system(bonds,
                                           std::make_shared<MirrorLayer<dim>>(body.nodes),
                                           body.nodes,
