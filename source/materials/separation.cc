@@ -170,7 +170,8 @@ namespace perideal
   template <int dim>
   std::vector<double> Separation<dim>::calibrate(const BondFailing         &how,
                                                  const std::vector<Vector> &normals,
-                                                 const unsigned int         n_steps)
+                                                 const unsigned int         n_steps,
+                                                 const std::vector<double> &begin)
   {
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
@@ -179,7 +180,7 @@ namespace perideal
 
     if (normals.empty())
       return std::vector<double>(family.size, 0.);
-    std::vector<double> squares = of_continuum(), by_member;
+    std::vector<double> squares = begin, by_member;
     if (how.first > 0)
       {
         // Where bonds soften from a given stretch on, their share depends on how large the others are.

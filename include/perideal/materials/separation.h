@@ -85,17 +85,20 @@ namespace perideal
 
     /**
      * Returns the squares of critical stretches over the energy that a unit of area is to take, by member
-     * [m^2/J]: with one stretch for all, on the mean over planes normal to the bonds; and from there in steps
-     * of Newton's method to that energy in each of these directions, by the smallest changes of stretches
-     * that do so. Where families have few bonds, planes between these directions keep more: up to 8 % with
-     * the 12 neighbours of a square grid and a horizon factor of 2.01, 3 % with 28. One stretch for all
-     * leaves differences of 22 % and 6 %. Empty families, and such that take no energy, get zeros. Of bonds
-     * that soften it is s_d^2.
+     * [m^2/J]: in the ratios of given ones, so that the mean over planes normal to the bonds is right; and
+     * from there in steps of Newton's method to that energy in each of these directions, by the smallest
+     * changes of stretches that do so. Where families have few bonds, planes between these directions keep
+     * more: up to 8 % with the 12 neighbours of a square grid and a horizon factor of 2.01, 3 % with 28. One
+     * stretch for all leaves differences of 22 % and 6 %. Empty families, and such that take no energy, get
+     * zeros. Of bonds that soften it is s_d^2.
      * @param normals to planes that are looked at, from directions_of_bonds()
-     * @param n_steps 0: one stretch for all
+     * @param n_steps 0: the ratios stay
+     * @param begin squares to begin from, by member; their ratios count
      */
-    std::vector<double>
-    calibrate(const BondFailing &how, const std::vector<Vector> &normals, const unsigned int n_steps);
+    std::vector<double> calibrate(const BondFailing         &how,
+                                  const std::vector<Vector> &normals,
+                                  const unsigned int         n_steps,
+                                  const std::vector<double> &begin);
 
     /// What planes of all directions take of their energy, with these squares for it.
     EnergyByDirection by_direction(const std::vector<double> &squares, const BondFailing &how);

@@ -3,6 +3,7 @@
 #include <perideal/materials/bulk_strength.h>
 #include <perideal/operators/weights/calibrated_stretches.h>
 #include <perideal/operators/weights/calibration_memo.h>
+#include <perideal/operators/weights/canonical_family.h>
 #include <perideal/operators/weights/equal_families.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +18,10 @@ namespace perideal
   {
     /// The cost goes with the square of the number of members and that of the normals: large families that
     /// are all different, as in unstructured meshes of solids, are only scaled.
-    constexpr unsigned int most_normals = 24, few_normals = 8, n_steps = 5, large_family = 64;
+    constexpr unsigned int most_normals = 24, few_normals = 8, large_family = 64;
+
+    /// Steps of Newton's method in all, and those of them before it is known where bonds begin to soften.
+    constexpr unsigned int n_steps = 5, n_first_steps = 2;
 
     /// Share of the square of the stretch of a continuum below which no family takes its bonds: the least are
     /// .4 to .6 in families of equal cells and of unstructured meshes, .2 in corners, .01 where cells halve.
@@ -63,13 +67,14 @@ namespace perideal
       const bool         only_scale = is_one_of_many && family.size > large_family;
       BondFailing        failing{how.law, fracture.energy, fracture.of_strength, how.first_share};
       const auto         normals = directions_of_bonds(family, only_scale ? few_normals : most_normals);
-      const unsigned int n       = only_scale ? 0 : n_steps;
-      result.squares             = separation.calibrate(failing, normals, n);
-      if (how.law.softens() && fracture.of_strength > 0 && !normals.empty())
+      const bool         bears   = how.law.softens() && fracture.of_strength > 0 && !normals.empty();
+      const unsigned int n = only_scale ? 0 : n_steps, n_first = only_scale || !bears ? n : n_first_steps;
+      result.squares = separation.calibrate(failing, normals, n_first, separation.of_continuum());
+      if (bears)
         {
           const BulkStrength<dim> strength(family, coefficients, shape, normals, fracture.lateral);
           failing.first  = strength.first_stretch(fracture.of_strength, result.squares, failing);
-          result.squares = separation.calibrate(failing, normals, n);
+          result.squares = separation.calibrate(failing, normals, n - n_first, result.squares);
         }
       result.first = std::max(failing.first, least_first * fracture.of_strength);
       if (how.of_continuum)
@@ -121,23 +126,41 @@ namespace perideal
       return family;
     }
 
-    /// As calibrate(), or what the memo knows of it.
+    /// As calibrate(), or what the memo knows of it; of all images of a family one is calibrated.
     template <int dim>
     CalibratedFamily recall(const FamilyView<dim>           &given,
                             LinearModel<dim>                &model,
                             const Calibration<dim>          &how,
                             const dealii::types::material_id material,
+                            const bool                       has_images,
                             const bool                       is_one_of_many)
     {
-      const FamilyView<dim> family = without_rounding(given);
+      const auto canonical = canonical_family(without_rounding(given), has_images);
+      const auto make = [&] { return calibrate(canonical.family, model, how, material, is_one_of_many); };
+      CalibratedFamily result;
       if (how.memo == nullptr || model.depends_on_node())
-        return calibrate(family, model, how, material, is_one_of_many);
-      const auto key = CalibrationMemo::key_of(family, material, 2u * is_one_of_many + how.with_shares);
-      if (const CalibratedFamily *known = how.memo->find(key))
-        return *known;
-      const CalibratedFamily result = calibrate(family, model, how, material, is_one_of_many);
-      how.memo->insert(key, result);
+        result = make();
+      else
+        {
+          const auto key =
+            CalibrationMemo::key_of(canonical.family, material, 2u * is_one_of_many + how.with_shares);
+          const CalibratedFamily *known = how.memo->find(key);
+          result                        = known != nullptr ? *known : make();
+          if (known == nullptr)
+            how.memo->insert(key, result);
+        }
+      const std::vector<double> squares = result.squares;
+      for (LocalIndex k = 0; k < squares.size(); ++k)
+        result.squares[canonical.member_of[k]] = squares[k];
       return result;
+    }
+
+    /// Whether bonds of a material fail alike in all directions.
+    template <int dim>
+    bool is_isotropic(const ElasticSolid<dim> &solid, const BondFracture<dim> &fracture)
+    {
+      return solid.is_isotropic() &&
+             fracture.by_normal == fracture.by_normal[0][0] * dealii::unit_symmetric_tensor<dim>();
     }
   } // namespace
 
@@ -165,8 +188,9 @@ namespace perideal
     std::vector<Known<dim>> known;
     std::vector<LocalIndex> codes;
     // Number of families, and sums of their shares.
-    std::array<double, 4>      sums     = {};
-    dealii::types::material_id material = dealii::numbers::invalid_material_id;
+    std::array<double, 4>      sums       = {};
+    dealii::types::material_id material   = dealii::numbers::invalid_material_id;
+    bool                       has_images = false;
     for (LocalIndex i = 0; i < families.n_owned(); ++i)
       {
         // The cursor goes from family to family.
@@ -176,8 +200,10 @@ namespace perideal
         family.reinit(families, i);
         if (families.material[i] != material)
           {
-            material = families.material[i];
-            family.set_solid(solid_of(material));
+            material                      = families.material[i];
+            const ElasticSolid<dim> solid = solid_of(material);
+            family.set_solid(solid);
+            has_images = is_isotropic(solid, how.fracture_of(material));
           }
         typename EqualFamilies<dim>::Match match{0, true};
         if (many_equal)
@@ -189,7 +215,7 @@ namespace perideal
         Known<dim> &own = known[match.number];
         if (!own.is_calibrated && (is_wanted(i) || (many_equal && match.number < n_at_once)))
           {
-            own.made          = recall(own.first, model, how, material, !many_equal);
+            own.made          = recall(own.first, model, how, material, has_images, !many_equal);
             own.is_calibrated = true;
           }
         else if (match.is_new)

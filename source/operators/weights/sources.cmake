@@ -5,6 +5,7 @@ perideal_room(operators/weights
     bond_weights.cc
     calibrated_stretches.cc
     calibration_memo.cc
+    canonical_family.cc
     equal_families.cc
   LOOPS
     consistent_bonds.cc

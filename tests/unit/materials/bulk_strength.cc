@@ -30,7 +30,7 @@ namespace
                     const std::vector<dealii::Tensor<1, dim>> &normals,
                     const double                               ratio)
   {
-    const auto squares = separation.calibrate({}, normals, 0);
+    const auto squares = separation.calibrate({}, normals, 0, separation.of_continuum());
     return std::pow(ratio * strength_strain, 2) / squares.front();
   }
 
@@ -51,7 +51,7 @@ namespace
     for (const double ratio : {2., 4., 8.})
       {
         BondFailing how     = failing(softening, energy_for(separation, normals, ratio));
-        const auto  squares = separation.calibrate(how, normals, 0);
+        const auto  squares = separation.calibrate(how, normals, 0, separation.of_continuum());
         EXPECT_GT(strength.largest_strain(squares, how), 1.05 * strength_strain);
         how.first = strength.first_stretch(strength_strain, squares, how);
         EXPECT_NEAR(strength.largest_strain(squares, how) / strength_strain, 1., 5e-3);

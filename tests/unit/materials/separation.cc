@@ -74,7 +74,7 @@ namespace
     BondFailing        how;
     how.law                     = SofteningLaw(softening);
     how.first_share             = std::sqrt(1. / 3.);
-    const auto          squares = separation.calibrate(how, normals, 5);
+    const auto          squares = separation.calibrate(how, normals, 5, separation.of_continuum());
     std::vector<double> by_member;
     if (!how.law.softens())
       {
@@ -92,7 +92,7 @@ namespace
       EXPECT_GT(square, 0.);
     // What bonds take grows with the energy wanted, as long as no strength is given.
     how.energy            = 100.;
-    const auto for_energy = separation.calibrate(how, normals, 5);
+    const auto for_energy = separation.calibrate(how, normals, 5, separation.of_continuum());
     for (LocalIndex j = 0; j < weighed.family.size; ++j)
       EXPECT_NEAR(for_energy[j] / squares[j], 1., 1e-9);
   }
@@ -136,10 +136,11 @@ TEST(Separation, TakesTheEnergyOfTheDirection)
         Separation<2>    separation(weighed.family, weighed.coefficients, weighed.shape, by_normal);
         Separation<2>    plain(weighed.family, weighed.coefficients, weighed.shape);
         BondFailing      how;
-        how.law            = SofteningLaw(softening);
-        how.first_share    = std::sqrt(0.5);
-        const auto squares = separation.calibrate(how, directions_of_bonds(weighed.family, 24), 5);
-        const auto shares  = separation.by_direction(squares, how);
+        how.law         = SofteningLaw(softening);
+        how.first_share = std::sqrt(0.5);
+        const auto squares =
+          separation.calibrate(how, directions_of_bonds(weighed.family, 24), 5, separation.of_continuum());
+        const auto shares = separation.by_direction(squares, how);
         EXPECT_NEAR(shares.mean, 1., 0.05);
         EXPECT_GT(shares.smallest, 0.95);
         EXPECT_LT(shares.largest, 1.2);

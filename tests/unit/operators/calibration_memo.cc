@@ -2,6 +2,7 @@
 #include <perideal/materials/models.h>
 #include <perideal/operators/weights/calibrated_stretches.h>
 #include <perideal/operators/weights/calibration_memo.h>
+#include <perideal/operators/weights/canonical_family.h>
 
 #include "bodies.h"
 #include "testing.h"
@@ -96,4 +97,46 @@ TEST(CalibrationMemo, CalibratesWhatIsWanted)
   EXPECT_FALSE(some.are_all_known);
   EXPECT_GT(n_known, 0u);
   EXPECT_GT(n_unknown, 0u);
+}
+
+/// Images of a family have one canonical family, to the last bit, and members of it that are images.
+TEST(CalibrationMemo, ImagesOfAFamilyAreOne)
+{
+  const auto          mesh = test::make_refined_box<2>({20, 20}, {0.2, 0.2}, 0.15, MPI_COMM_SELF);
+  const test::Body<2> body(*mesh, 2.01);
+  FamilyView<2>       family;
+  unsigned int        n_moved = 0;
+  for (LocalIndex i = 0; i < body.families->n_owned(); i += 7)
+    {
+      family.reinit(*body.families, i);
+      const auto canonical = canonical_family(family, true);
+      // A quarter turn, of members in another order.
+      FamilyView<2> turned = family;
+      for (LocalIndex j = 0; j < family.size; ++j)
+        {
+          const LocalIndex from  = family.size - 1 - j;
+          turned.bond[0][j]      = -family.bond[1][from];
+          turned.bond[1][j]      = family.bond[0][from];
+          turned.volume[j]       = family.volume[from];
+          turned.bond_horizon[j] = family.bond_horizon[from];
+          turned.member[j]       = family.member[from];
+        }
+      const auto again = canonical_family(turned, true);
+      EXPECT_EQ(again.family.bond, canonical.family.bond);
+      EXPECT_EQ(again.family.volume, canonical.family.volume);
+      EXPECT_EQ(again.family.bond_horizon, canonical.family.bond_horizon);
+      EXPECT_EQ(again.family.length_square, canonical.family.length_square);
+      for (LocalIndex k = 0; k < family.size; ++k)
+        {
+          const LocalIndex j = canonical.member_of[k];
+          EXPECT_EQ(canonical.family.member[k], family.member[j]);
+          EXPECT_EQ(canonical.family.volume[k], family.volume[j]);
+          EXPECT_EQ(std::abs(canonical.family.bond[0][k]) + std::abs(canonical.family.bond[1][k]),
+                    std::abs(family.bond[0][j]) + std::abs(family.bond[1][j]));
+        }
+      // Where images differ, they stay what they are.
+      EXPECT_EQ(canonical_family(family, false).family.bond, family.bond);
+      n_moved += canonical.family.bond != family.bond;
+    }
+  EXPECT_GT(n_moved, 0u);
 }
