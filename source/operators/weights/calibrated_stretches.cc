@@ -203,7 +203,7 @@ namespace perideal
             material                      = families.material[i];
             const ElasticSolid<dim> solid = solid_of(material);
             family.set_solid(solid);
-            has_images = is_isotropic(solid, how.fracture_of(material));
+            has_images = !model.depends_on_node() && is_isotropic(solid, how.fracture_of(material));
           }
         typename EqualFamilies<dim>::Match match{0, true};
         if (many_equal)
