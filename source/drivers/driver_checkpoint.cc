@@ -3,6 +3,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/drivers/driver.h>
 #include <perideal/output/summary.h>
+#include <perideal/problem/carried_softening.h>
 #include <perideal/problem/present_state.h>
 
 #include <deal.II/base/mpi.h>
@@ -100,6 +101,7 @@ namespace perideal
   {
     const Timings::Scope scope(problem.run.timings, "setup");
     problem.lasting.resume(*resumed);
+    CarriedSoftening<dim>::soften_halves(problem, *resumed);
     resumed.reset();
   }
 

@@ -45,7 +45,9 @@ namespace perideal
       dealii::Patterns::Integer(0, 8));
     prm.add_parameter("Refine from",
                       refine_from,
-                      "Strain over the one at which bonds begin to fail [-] from which cells are halved",
+                      "Strain over the one at which bonds begin to fail [-] from which cells are halved; of "
+                      "bonds that soften 1 and the share of their largest force that they have lost; 0: 0.8, "
+                      "in the consistent form 1.2 where bonds soften from a tensile strength on",
                       dealii::Patterns::Double(0.));
     prm.add_parameter("Coarsen below",
                       coarsen_below,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/parameters/softening.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,6 +72,18 @@ namespace perideal
     const double change  = (line->second - (line - 1)->second) * first;
     const double carried = ((line - 1)->second * first + share * change) / stretch;
     return {carried, (change / (end - begin) - carried) / stretch};
+  }
+
+  double
+  SofteningLaw::stretch_bearing(const double borne, const double first, const double brittle_square) const
+  {
+    Assert(softens() && borne > 0 && borne < 1, dealii::ExcInternalError());
+    const auto end = std::partition_point(
+      curve.begin() + 1, curve.end(), [&](const auto &point) { return point.second > borne; });
+    const auto   begin = end - 1;
+    const double opening =
+      begin->first + (end->first - begin->first) * (begin->second - borne) / (begin->second - end->second);
+    return stretch_at({opening, borne}, first, brittle_square);
   }
 
   void SofteningLaw::look_along(const Growing &stretches,

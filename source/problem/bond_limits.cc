@@ -85,6 +85,7 @@ namespace perideal
     : body(body)
     , families(families)
     , model(model_of_bonds(body))
+    , law(body.parameters.material.softening)
   {
     if (!body.parameters.model.calibrates_bonds())
       return;
@@ -106,7 +107,7 @@ namespace perideal
       const double stretch = model.critical_stretch(body.solids.at(id).isotropic(), energy, horizon);
       return stretch * stretch / energy;
     };
-    how.law         = SofteningLaw(body.parameters.material.softening);
+    how.law         = law;
     how.first_share = first_share;
     how.with_shares = calibrating.with_shares;
     how.memo        = calibrating.memo;
@@ -125,9 +126,16 @@ namespace perideal
         const double of_near = critical_stretch(model, body, near, horizon);
         return near == far ? of_near : std::min(of_near, critical_stretch(model, body, far, horizon));
       }
-    const double of_near = square(near, calibrated.near[slot] / families.finest_share(i)),
-                 of_far  = square(far, calibrated.far[slot] / families.finest_share(j));
-    return std::sqrt(near == far ? 0.5 * (of_near + of_far) : std::min(of_near, of_far));
+    const auto of_cells = [&](const double share_near, const double share_far) {
+      const double of_near = square(near, calibrated.near[slot] / share_near),
+                   of_far  = square(far, calibrated.far[slot] / share_far);
+      return near == far ? 0.5 * (of_near + of_far) : std::min(of_near, of_far);
+    };
+    // Bonds that begin to soften at a strength do so in cells of any size, and take what a crack takes.
+    if (strain_of_strength(body, near).first > 0 && strain_of_strength(body, far).first > 0)
+      if (const double own = of_cells(1., 1.); law.is_stable(first(i, j, slot), own))
+        return std::sqrt(own);
+    return std::sqrt(of_cells(families.finest_share(i), families.finest_share(j)));
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/problem/carried_softening.h>
 #include <perideal/problem/carried_state.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,15 +13,21 @@ namespace perideal
 {
   namespace
   {
-    /// Whether a bond of an owned node softened or broke.
-    std::vector<bool> failed_nodes(const Checkpoint &state, const LocalIndex n_owned)
+    /// What may become of the cells of owned nodes, by node: a CellFate.
+    template <int dim>
+    std::vector<double> fates_of_cells(const Checkpoint &state, const LocalIndex n_owned)
     {
-      std::vector<bool> result(n_owned, false);
+      std::vector<double> result(n_owned, CellFate::changes);
       for (const auto &[name, array] : state.bond_arrays)
-        for (const BondEnds &bond : array.bonds)
-          for (const LocalIndex end : {bond.near, bond.far})
-            if (end < n_owned)
-              result[end] = true;
+        for (std::size_t b = 0; b < array.bonds.size(); ++b)
+          {
+            const bool is_little =
+              name == BondMemory::name_of_softened &&
+              1. - BondMemory::bond(array.values, b).borne() < CarriedSoftening<dim>::largest_loss;
+            for (const LocalIndex end : {array.bonds[b].near, array.bonds[b].far})
+              if (end < n_owned)
+                result[end] = std::max(result[end], is_little ? CellFate::is_halved : CellFate::stays);
+          }
       return result;
     }
 
@@ -56,7 +63,10 @@ namespace perideal
                                   const MeshNeed<dim>   &need)
     : state(std::move(given))
   {
-    const Nodes<dim> &nodes = *problem.body.nodes;
+    const Nodes<dim> &nodes    = *problem.body.nodes;
+    const BondArray   softened = state.bond_arrays[BondMemory::name_of_softened];
+    if (dealii::Utilities::MPI::max(softened.bonds.size(), nodes.communicator) > 0)
+      state.node_arrays[CarriedSoftening<dim>::name] = CarriedSoftening<dim>::fit(problem, softened);
     for (auto &[name, array] : state.node_arrays)
       {
         // Where only the first nodes have values, or none has, zeros follow.
@@ -65,12 +75,12 @@ namespace perideal
         (is_smooth ? smooth : constant).push_back(name);
         (is_smooth ? n_smooth : n_constant) += array.width;
       }
-    const std::vector<double> costs  = cost_of_nodes(problem);
-    const std::vector<bool>   failed = failed_nodes(state, nodes.size());
+    const std::vector<double> costs = cost_of_nodes(problem);
+    const auto                fates = fates_of_cells<dim>(state, nodes.size());
     std::vector<Numbers>      of_node(nodes.size());
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       {
-        of_node[i] = {failed[i] ? 1. : 0., need.is_quiet[i] ? 1. : 0., costs[i], 0.};
+        of_node[i] = {fates[i], need.is_quiet[i] ? 1. : 0., costs[i], 0., 0.};
         for (const auto *names : {&constant, &smooth})
           for (const std::string &name : *names)
             {
@@ -116,8 +126,11 @@ namespace perideal
           for (const auto *names : {&constant, &smooth})
             for (const std::string &name : *names)
               {
-                NodeArray &array = result.node_arrays.at(name);
-                std::copy_n(from, array.width, array.values.begin() + std::size_t(array.width) * i);
+                NodeArray &array   = result.node_arrays.at(name);
+                const auto of_node = array.values.begin() + std::size_t(array.width) * i;
+                std::copy_n(from, array.width, of_node);
+                if (name == CarriedSoftening<dim>::name)
+                  *of_node = numbers_of_cell[c][is_half];
                 from += array.width;
               }
         }

@@ -131,7 +131,7 @@ namespace perideal
           const LocalIndex i   = problem.body.nodes->node_of_cell[cell->active_cell_index()];
           fitting.numbers[i]   = &numbers;
           fitting.cell[i]      = cell;
-          fitting.is_halved[i] = numbers[is_kept] == 0 && need.is_near_halved(cell, largest, 0.);
+          fitting.is_halved[i] = numbers[fate] < CellFate::stays && need.is_near_halved(cell, largest, 0.);
           // Halves take polynomials of nodes nearer than one and a quarter of an edge.
           fitting.is_fitted[i] = need.is_near_halved(cell, largest, 2. * largest.cell);
         }

@@ -45,6 +45,7 @@ namespace perideal
     const QuadraticTerms<dim> p      = quadratic_terms(d);
     const std::size_t         first  = n_places + n_constant;
     result[is_quiet] = result[has_halves] = 0.;
+    result[is_half]                       = 1.;
     for (std::size_t k = 0; k < n_smooth; ++k)
       {
         double *coefficients = result.data() + first + n_smooth + k * n_coefficients;
@@ -149,7 +150,7 @@ namespace perideal
       }
     for (std::size_t k = first; k < result.size(); ++k)
       result[k] /= volume;
-    result[is_quiet] = result[has_halves] = 0.;
+    result[is_quiet] = result[has_halves] = result[is_half] = 0.;
     return result;
   }
 
@@ -165,7 +166,8 @@ namespace perideal
     };
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
-        blocked[cell->active_cell_index()] = numbers_of_cell[cell->active_cell_index()][is_kept] > 0;
+        blocked[cell->active_cell_index()] =
+          numbers_of_cell[cell->active_cell_index()][fate] == CellFate::stays;
     for (GlobalIndex n_new = 1; n_new > 0;)
       {
         exchange();
@@ -196,7 +198,7 @@ namespace perideal
   {
     std::vector<std::pair<unsigned int, dealii::BoundingBox<dim>>> mine;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][is_kept] > 0)
+      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][fate] > CellFate::changes)
         mine.emplace_back(halvings(mesh, cell), cell->bounding_box());
     std::vector<std::vector<dealii::BoundingBox<dim>>> boxes(1);
     for (const auto &of_rank :
@@ -241,7 +243,7 @@ namespace perideal
               cell->set_refine_flag();
               ++n_halved;
             }
-          else if (joins && n > 0 && numbers[is_quiet] > 0 && numbers[is_kept] == 0 &&
+          else if (joins && n > 0 && numbers[is_quiet] > 0 && numbers[fate] == CellFate::changes &&
                    !need.needs(cell, n, n) && !is_near_kept(cell, n))
             cell->set_coarsen_flag();
         }
@@ -267,7 +269,7 @@ namespace perideal
   {
     GlobalIndex n = 0;
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][is_kept] > 0 &&
+      if (cell->is_locally_owned() && numbers_of_cell[cell->active_cell_index()][fate] == CellFate::stays &&
           halvings(mesh, cell) < levels)
         ++n;
     return sum(n, mesh.triangulation.get_communicator()) > 0;

@@ -8,6 +8,7 @@ perideal_room(problem
     advice_surfaces.cc
     body.cc
     bond_limits.cc
+    carried_softening.cc
     carried_state.cc
     carried_state_fit.cc
     carried_state_mesh.cc

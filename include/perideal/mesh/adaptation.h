@@ -26,8 +26,9 @@ namespace perideal
     unsigned int max_cells = 1000000;
     /// How often a cell of the mesh may be halved by need; 0: none is.
     unsigned int levels = 0;
-    /// Share of what bonds bear from which cells are halved, and below which they are joined again [-].
-    double refine_from = 0.8, coarsen_below = 0.;
+    /// Utilisation of bonds from which cells are halved, 0 as MeshNeed has it, and below which they are
+    /// joined again [-].
+    double refine_from = 0., coarsen_below = 0.;
     /// How far around such a place cells are halved, in smallest spacings of the mesh [-].
     double reach = 12.;
     /// Steps of a motion between two looks.

@@ -71,6 +71,10 @@ namespace perideal
       return look_at(stretch, first, brittle_square).carried;
     }
 
+    /// Returns the stretch at which a bond that opens bears a share of its largest force.
+    /// @param borne 0 < f < 1 @param first s_0 @param brittle_square s_d^2, both stable
+    double stretch_bearing(const double borne, const double first, const double brittle_square) const;
+
     /// Stretches that grow, over a scale: s = scale unit.
     struct Growing
     {

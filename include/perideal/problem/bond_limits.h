@@ -61,6 +61,7 @@ namespace perideal
     const Body<dim>     &body;
     const Families<dim> &families;
     ModelParameters      model;
+    SofteningLaw         law;
     CalibratedStretches  calibrated;
   };
 } // namespace perideal

@@ -13,17 +13,23 @@
 
 namespace perideal
 {
+  /// What may become of a cell: it is halved or joined; halved only, as bonds of it softened; or it stays.
+  struct CellFate
+  {
+    static constexpr double changes = 0., is_halved = 1., stays = 2.;
+  };
+
   /**
    * Takes what lasts from the nodes of one mesh to those of another, of which cells are halved or joined.
    *
-   * Cells with a bond that softened or broke stay as they are, so that all these bonds are found again, and
-   * no others fail by the change. Smooth fields are quadratic polynomials around each node, fitted to the
-   * bonds that hold the body together; at the centroids of halves those of the nodes around are weighted by
-   * how near these are, linearly along each edge of the cell: of waves of few cells, which no polynomial
-   * fits, straight lines from node to node are left, where steps between cells would double their strain
-   * energy. All halves of a material get one amount more, so that the sum over the body of values times
-   * volumes stays: momentum lasts. Halves that are halved at once again follow the polynomial of the first,
-   * and keep its sum. Cells that are joined have the mean.
+   * Cells with a bond that broke, or softened until it bears less than half, stay as they are: all these
+   * bonds are found again. Where bonds softened less, cells may be halved (CarriedSoftening). Smooth fields
+   * are quadratic polynomials around each node, fitted to the bonds that hold the body together; at the
+   * centroids of halves those of the nodes around are weighted by how near these are, linearly along each
+   * edge of the cell: of waves of few cells, which no polynomial fits, straight lines from node to node are
+   * left, where steps between cells would double their strain energy. All halves of a material get one amount
+   * more, so that the sum over the body of values times volumes stays: momentum lasts. Halves that are halved
+   * at once again follow the polynomial of the first, and keep its sum. Cells that are joined have the mean.
    */
   template <int dim>
   class CarriedState
@@ -72,11 +78,13 @@ namespace perideal
     /// Where in the numbers of a cell what stands.
     enum Place : std::size_t
     {
-      is_kept,
+      /// What may become of it: a CellFate.
+      fate,
       is_quiet,
       cost,
       /// Whether values of halves are known.
       has_halves,
+      is_half,
       n_places
     };
     /// Of a polynomial without its constant; halves of a cell.

@@ -182,12 +182,12 @@ namespace perideal
       });
     // Whether bonds soften is not known yet.
     state.add_bond_array(
-      "softened bonds",
+      BondMemory::name_of_softened,
       "-",
-      Memory::n_values,
+      SoftenedBond::n_values,
       [bonds] {
-        const Memory memory = bonds().memory();
-        return BondArray{"-", Memory::n_values, memory.softened, memory.of_softened};
+        const BondMemory memory = bonds().memory();
+        return BondArray{"-", SoftenedBond::n_values, memory.softened, memory.of_softened};
       },
       [bonds](const BondArray &array) {
         bonds().restore({{}, array.bonds, array.values});
@@ -195,26 +195,21 @@ namespace perideal
   }
 
   template <int dim>
-  typename BreakingBonds<dim>::Memory BreakingBonds<dim>::memory()
+  BondMemory BreakingBonds<dim>::memory()
   {
     softening.begin(critical_stretch);
-    Memory result;
+    BondMemory result;
     for (std::size_t k = n_lost.cut; k < this->lost.size(); ++k)
       result.broken.push_back({this->lost[k].near, this->lost[k].far});
     for (LocalIndex i = 0; i < bonds.n_rows(); ++i)
       for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
         if (bonds.neighbour[slot] != i && softening.has_changed(slot) && carries_force(slot))
-          {
-            result.softened.push_back({i, bonds.neighbour[slot]});
-            result.of_softened.insert(
-              result.of_softened.end(),
-              {critical_stretch[slot], softening.share(slot), softening.first_stretch(slot)});
-          }
+          result.add({i, bonds.neighbour[slot]}, softening.memory(slot, critical_stretch[slot]));
     return result;
   }
 
   template <int dim>
-  void BreakingBonds<dim>::restore(const Memory &earlier)
+  void BreakingBonds<dim>::restore(const BondMemory &earlier)
   {
     if (unknown.are_there())
       {
@@ -228,11 +223,7 @@ namespace perideal
     for (std::size_t b = 0; b < earlier.softened.size(); ++b)
       if (const BondIndex slot = bonds.find(earlier.softened[b].near, earlier.softened[b].far);
           softening.softens() && slot != BondList::no_slot && carries_force(slot))
-        {
-          const double *values   = earlier.of_softened.data() + Memory::n_values * b;
-          critical_stretch[slot] = static_cast<float>(values[0]);
-          softening.restore(slot, values[1], values[2]);
-        }
+        softening.restore(slot, BondMemory::bond(earlier.of_softened, b), critical_stretch[slot]);
   }
 
   template <int dim>
@@ -256,7 +247,10 @@ namespace perideal
           {
             const double limit =
               critical_stretch[slot] / (unknown.contains(slot) ? UnknownLimits::share_of_limit : 1.);
-            const double share = stretch_between<dim>(position[i], position[j], rest_length[slot]) / limit;
+            // One that softened is beyond its limit by what it bears less.
+            const double share       = softening.has_changed(slot) ?
+                                         2. - softening.memory(slot, critical_stretch[slot]).borne() :
+                                         stretch_between<dim>(position[i], position[j], rest_length[slot]) / limit;
             largest.local_element(i) = std::max(largest.local_element(i), share);
             // A bond that the partition cuts is looked at from its other end, too.
             if (j < families->n_owned())

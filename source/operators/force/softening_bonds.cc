@@ -45,13 +45,21 @@ namespace perideal
     first[slot] = limit = static_cast<float>(stretch);
   }
 
-  void SofteningBonds::restore(const BondIndex slot, const double share, const double first_stretch)
+  void SofteningBonds::restore(const BondIndex slot, const SoftenedBond &bond, float &limit)
   {
-    shares[slot] = static_cast<float>(share);
-    if (!waits(slot))
-      return;
-    float limit = 0;
-    start(slot, first_stretch, limit);
+    double last = bond.limit, left = bond.share;
+    if (!bond.is_limit_known())
+      {
+        const double begins = waits(slot) ? bond.first : first[slot], square = brittle_square[slot];
+        if (!(square <= std::numeric_limits<float>::max()) || !law.is_stable(begins, square))
+          return;
+        last = law.stretch_bearing(bond.borne(), begins, square);
+        left = bond.borne() * begins / last;
+      }
+    if (waits(slot))
+      start(slot, bond.first, limit);
+    shares[slot] = static_cast<float>(left);
+    limit        = static_cast<float>(last);
   }
 
   void SofteningBonds::begin(std::vector<float> &limits)

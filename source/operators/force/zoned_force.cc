@@ -143,10 +143,7 @@ namespace perideal
     if (making.set_limits)
       making.set_limits(*whole->families, *made);
     if (bonds)
-      {
-        auto &earlier = dynamic_cast<BreakingBonds<dim> &>(*bonds);
-        dynamic_cast<BreakingBonds<dim> &>(*made).restore(earlier.memory());
-      }
+      made->restore(dynamic_cast<BreakingBonds<dim> &>(*bonds).memory());
     made->judge_bonds(judgement);
     bonds            = std::move(made);
     making.is_inside = families->with_all_members(making.chosen);

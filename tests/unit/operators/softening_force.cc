@@ -134,6 +134,44 @@ namespace
     EXPECT_FALSE(endless.bonds->softening_bonds().any_now(MPI_COMM_WORLD));
   }
 
+  /// A bond of which it is known only what it bears takes the place on its own law where that is left, and
+  /// stays whole where it could not soften.
+  void expect_what_bonds_bear(const SofteningLaw &law)
+  {
+    constexpr double                     first = 0.02, limit = 0.06, borne = 0.7;
+    const std::unique_ptr<const Mesh<2>> mesh = test::make_box<2>({8, 8}, {1., 1.}, 0.2);
+    SofteningBody<2>                     body(*mesh, {"extended ordinary", "energy"});
+    const BondList                      &list  = body.bonds->bond_list();
+    const LocalIndex                     other = list.neighbour[list.row[0] + 1];
+    body.bonds->set_critical_stretch(
+      [&](const LocalIndex i, const LocalIndex j) {
+        return std::min(i, j) == 0 && std::max(i, j) == other ? std::numeric_limits<double>::infinity() :
+                                                                limit;
+      },
+      law,
+      [](const LocalIndex, const LocalIndex) { return first; });
+    BondMemory memory;
+    for (BondIndex slot = list.row[0]; slot < list.row[1]; ++slot)
+      if (list.neighbour[slot] != 0)
+        memory.add({0, list.neighbour[slot]}, SoftenedBond::bearing(borne, first));
+    body.bonds->restore(memory);
+    const SofteningBonds &bonds   = body.bonds->softening_bonds();
+    const double          stretch = law.stretch_bearing(borne, first, limit * limit);
+    EXPECT_GT(stretch, first);
+    for (BondIndex slot = list.row[0]; slot < list.row[1]; ++slot)
+      if (const LocalIndex j = list.neighbour[slot]; j != 0)
+        {
+          const double share = j == other ? 1. : borne * first / stretch;
+          EXPECT_NEAR(bonds.share(slot), share, 1e-6);
+        }
+
+    // Nobody is stretched: what had softened counts, beyond 1 by what it lost.
+    NodalVector rest(body.force);
+    body.bonds->compute(body.force, rest);
+    EXPECT_NEAR(body.bonds->utilisation()[0], 2. - borne, 1e-5);
+    EXPECT_EQ(body.bonds->utilisation().back(), 0.);
+  }
+
   /// Limits of bonds, half of each unless both ends were asked for.
   template <int dim>
   struct LimitsOnDemand
@@ -233,6 +271,15 @@ TEST(SofteningForce, FindsOutLimitsOnDemand)
         expect_the_same_on_demand<2>(
           *test::make_box<2>({40, 4}, {4., 0.4}, 0.2, MPI_COMM_WORLD), variant, SofteningLaw(law));
       }
+}
+
+TEST(SofteningForce, TakesUpWhatBondsBear)
+{
+  for (const char *law : {"linear", "bilinear", "exponential"})
+    {
+      SCOPED_TRACE(law);
+      expect_what_bonds_bear(SofteningLaw(law));
+    }
 }
 
 TEST(SofteningForce, SoftensAsFarAsItIsJudged)

@@ -42,6 +42,7 @@ TEST(Softening, TakesAsMuchAsBreakingAtOnce)
                         law.slope(s, first, s_d * s_d),
                         1e-4 / first);
             EXPECT_LE(force(law, s + step, first), force(law, s, first) * (1 + 1e-12));
+            EXPECT_NEAR(law.stretch_bearing(force(law, s, first) / first, first, s_d * s_d), s, 1e-12 * s);
           }
       }
 }

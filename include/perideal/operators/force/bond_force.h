@@ -85,6 +85,8 @@ namespace perideal
 
     /// Registers what lasts: the bonds that broke, in their order; the memory of its law.
     virtual void register_state(LastingState &state) = 0;
+    /// Breaks and softens bonds as they did before. Those that are no bonds here are left out. Collective.
+    virtual void restore(const BondMemory &earlier) = 0;
 
     /// All bonds of this rank, broken ones included.
     virtual const BondList &bond_list() const = 0;
@@ -139,8 +141,9 @@ namespace perideal
     virtual std::vector<double> cut_share() const = 0;
 
     /// How near the bonds of each owned node are to their limits at the last compute() [-]: the largest
-    /// stretch, or strain, over the one at which the first of them begins to soften or breaks; zero where
-    /// nothing breaks. Collective.
+    /// stretch, or strain, over the one at which the first of them begins to soften or breaks; of one that
+    /// has softened 1 and the share of its largest force that it has lost; zero where nothing breaks.
+    /// Collective.
     virtual std::vector<double> utilisation() const = 0;
 
     /// Mean share of the bonds that compute() has looked at; the others were at rest. Collective.

@@ -56,19 +56,9 @@ namespace perideal
     std::vector<double> utilisation() const override;
     double              share_computed() const override { return regions.share_awake(); }
 
-    /// What lasts of bonds: those of this rank that broke, in this order (those that the partition cuts are
-    /// on both ranks), and those that softened or were started, with the stretch beyond which each goes on to
-    /// soften, the share left, and the stretch at which it began.
-    struct Memory
-    {
-      static constexpr unsigned int n_values = 3;
-      std::vector<BondEnds>         broken, softened;
-      std::vector<double>           of_softened;
-    };
     /// What softened without being judged is taken back first.
-    Memory memory();
-    /// Breaks and softens bonds as they did before. Those that are no bonds here are left out. Collective.
-    void restore(const Memory &earlier);
+    BondMemory memory();
+    void       restore(const BondMemory &earlier) override;
 
     /// Registers the memory of the bonds that are there when it is asked for.
     static void register_bonds(LastingState &state, const std::function<BreakingBonds &()> &bonds);

@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/base/types.h>
+#include <perideal/neighbourhood/bond_list.h>
 #include <perideal/parameters/softening.h>
 
 #include <deal.II/base/mpi.h>
@@ -21,6 +22,44 @@ namespace perideal
     on_trial,
     /// They break or soften.
     for_good
+  };
+
+  /// What lasts of a bond that softened or was started: the stretch beyond which it goes on to soften, the
+  /// share of its weights that is left, and the stretch at which it began [-].
+  struct SoftenedBond
+  {
+    static constexpr unsigned int n_values = 3;
+
+    /// One of which it is known only what it bears, over its largest force.
+    static SoftenedBond bearing(const double force, const double first) { return {0., force, first}; }
+
+    double limit, share, first;
+
+    bool is_limit_known() const { return limit > 0; }
+    /// The force that it bears where it goes on to soften, over its largest [-].
+    double borne() const { return is_limit_known() ? share * limit / first : share; }
+  };
+
+  /// What lasts of bonds: those of a rank that broke, in this order (those that the partition cuts are on
+  /// both ranks), and those that softened, with the numbers of a SoftenedBond each.
+  struct BondMemory
+  {
+    static constexpr char name_of_softened[] = "softened bonds";
+
+    std::vector<BondEnds> broken, softened;
+    std::vector<double>   of_softened;
+
+    void add(const BondEnds &ends, const SoftenedBond &bond)
+    {
+      softened.push_back(ends);
+      of_softened.insert(of_softened.end(), {bond.limit, bond.share, bond.first});
+    }
+
+    static SoftenedBond bond(const std::vector<double> &values, const std::size_t b)
+    {
+      const double *of_bond = values.data() + SoftenedBond::n_values * b;
+      return {of_bond[0], of_bond[1], of_bond[2]};
+    }
   };
 
   /**
@@ -108,8 +147,13 @@ namespace perideal
     /// s_0, of bonds that wait as if a uniaxial stress was to start them.
     double first_stretch(const BondIndex slot) const { return first[slot]; }
 
-    /// Sets what an earlier run left of a bond, which began to soften at a first stretch.
-    void restore(const BondIndex slot, const double share, const double first_stretch);
+    /// What lasts of a bond of this limit.
+    SoftenedBond memory(const BondIndex slot, const float limit) const
+    {
+      return {limit, share(slot), first_stretch(slot)};
+    }
+    /// Sets what lasts of a bond. One of which only the force is known stays whole where it could not soften.
+    void restore(const BondIndex slot, const SoftenedBond &bond, float &limit);
 
     std::size_t memory_consumption() const;
 

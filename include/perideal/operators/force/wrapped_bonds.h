@@ -34,6 +34,7 @@ namespace perideal
       bonds->visit_bond_forces(visit);
     }
     void                register_state(LastingState &state) override { bonds->register_state(state); }
+    void                restore(const BondMemory &earlier) override { bonds->restore(earlier); }
     const BondList     &bond_list() const override { return bonds->bond_list(); }
     GlobalIndex         n_broken_now() const override { return bonds->n_broken_now(); }
     const NodeRecord   *positions() const override { return bonds->positions(); }
