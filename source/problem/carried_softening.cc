@@ -77,7 +77,7 @@ namespace perideal
     NodeArray            result{"-", width, std::vector<double>(std::size_t(width) * n_owned, 0.)};
     if (softened.bonds.empty())
       return result;
-    // The bonds of softened nodes only, by slot: a bond stands once on a rank.
+    // What softened, by slot; of nodes without such bonds nothing is fitted.
     const BondList                   &list = problem.force->bond_list();
     std::vector<const SoftenedBond *> of_slot(list.n_slots(), nullptr);
     std::vector<SoftenedBond>         bonds;
