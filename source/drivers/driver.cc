@@ -64,6 +64,7 @@ namespace perideal
     // Dynamics have moved on to their step, load steps have recorded theirs.
     recorders->open(resumed ? resumed->get<double>("step") + (kind.has_motion ? -0.5 : 0.5) : -1.,
                     resumed.get());
+    adaptation.register_state(problem.lasting);
     StepsEnd end = StepsEnd::stopped;
     try
       {

@@ -311,7 +311,11 @@ namespace perideal
         state.add_value("energy imbalance", imbalance);
         dynamics->register_state(state);
         if (forces.contact)
-          state.add_part("contact", recorders->summary());
+          {
+            state.add_part("contact", recorders->summary());
+            if (problem.parameters.adaptation.is_by_need())
+              forces.contact->register_state(state);
+          }
       }
 
       void save()

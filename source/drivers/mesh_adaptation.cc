@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace perideal
 {
@@ -25,9 +26,25 @@ namespace perideal
   template <int dim>
   void MeshAdaptation<dim>::look_at_first_mesh()
   {
-    change.need = std::make_unique<MeshNeed<dim>>(problem, 0.);
+    change.need = std::make_unique<MeshNeed<dim>>(problem, 0., needed_before);
     change.state =
       std::make_unique<CarriedState<dim>>(problem, Checkpoint(), nodes_of_state(problem), *change.need);
+  }
+
+  template <int dim>
+  void MeshAdaptation<dim>::register_state(LastingState &state)
+  {
+    if (problem.parameters.adaptation.is_by_need())
+      state.add_node_array(
+        "needed small cells",
+        "1",
+        1,
+        [this] {
+          std::vector<double> result(needed_before.begin(), needed_before.end());
+          result.resize(problem.body.nodes->size(), 0.);
+          return result;
+        },
+        [this](const std::vector<double> &read) { needed_before.assign(read.begin(), read.end()); });
   }
 
   template <int dim>
@@ -49,10 +66,11 @@ namespace perideal
     if (!problem.parameters.adaptation.is_by_need())
       return false;
     const Timings::Scope scope(problem.run.timings, "adaptation");
-    change.need = std::make_unique<MeshNeed<dim>>(problem, time);
+    change.need = std::make_unique<MeshNeed<dim>>(problem, time, needed_before);
     if (has_urgent_cells())
       {
-        change.state = std::make_unique<CarriedState<dim>>(
+        const auto before = std::exchange(needed_before, change.need->needs_small);
+        change.state      = std::make_unique<CarriedState<dim>>(
           problem, state_after(problem, step, time), nodes_of_state(problem), *change.need);
         if (change.state->has_failed_larger_cells(*problem.body.mesh, problem.parameters.adaptation.levels))
           problem.run.warn(
@@ -64,6 +82,7 @@ namespace perideal
             change.state->fit(problem, *change.need);
             return true;
           }
+        needed_before = before;
       }
     change = {};
     return false;

@@ -74,7 +74,8 @@ namespace perideal
   {
     const Families<dim> &families = *problem.discretisation.families;
     const LocalIndex     n_owned  = families.n_owned();
-    NodeArray            result{"-", width, std::vector<double>(std::size_t(width) * n_owned, 0.)};
+    NodeArray            result{
+      "-", width, std::vector<double>(std::size_t(width) * n_owned, 0.), Transfer::marks_halves};
     if (softened.bonds.empty())
       return result;
     // What softened, by slot; of nodes without such bonds nothing is fitted.

@@ -129,7 +129,7 @@ namespace perideal
                 NodeArray &array   = result.node_arrays.at(name);
                 const auto of_node = array.values.begin() + std::size_t(array.width) * i;
                 std::copy_n(from, array.width, of_node);
-                if (name == CarriedSoftening<dim>::name)
+                if (array.transfer == Transfer::marks_halves)
                   *of_node = numbers_of_cell[c][is_half];
                 from += array.width;
               }

@@ -90,6 +90,43 @@ namespace perideal
       return result;
     }
 
+    /// Where the places of this rank are to come to if they move on as they did since earlier ones, those of
+    /// all ranks: twice as far again, two reaches at most. A place that moved by less than a quarter of its
+    /// reach only became wider, and more than three reaches from all earlier ones it came from none of them.
+    /// So a crack that runs straight changes the mesh where it has run through some three reaches, not
+    /// through half of one, and one that turns needs a change once more.
+    template <int dim>
+    Places<dim> places_ahead(const Places<dim> &mine, const std::vector<dealii::Point<dim>> &earlier)
+    {
+      namespace bgi          = boost::geometry::index;
+      constexpr double least = 0.25, most = 3., again = 2., farthest = 2.;
+      Places<dim>      result;
+      const auto       all_earlier = dealii::pack_rtree(earlier);
+      for (const auto &[place, reach] : mine)
+        for (auto nearest = all_earlier.qbegin(bgi::nearest(place, 1)); nearest != all_earlier.qend();
+             ++nearest)
+          if (const auto motion = place - *nearest;
+              motion.norm() > least * reach && motion.norm() < most * reach)
+            {
+              const double far     = std::min(again * motion.norm(), farthest * reach);
+              const auto   n_parts = static_cast<unsigned int>(std::ceil(far / reach));
+              for (unsigned int part = 1; part <= n_parts; ++part)
+                result.emplace_back(place + (far * part / n_parts / motion.norm()) * motion, reach);
+            }
+      return result;
+    }
+
+    /// Points of all ranks. Collective.
+    template <int dim>
+    std::vector<dealii::Point<dim>> gathered(const std::vector<dealii::Point<dim>> &mine,
+                                             MPI_Comm                               communicator)
+    {
+      std::vector<dealii::Point<dim>> result;
+      for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
+        result.insert(result.end(), of_rank.begin(), of_rank.end());
+      return result;
+    }
+
     /// Boxes around places of all ranks, as far as a factor of their reach and a hair less: cells that touch
     /// one are not in it, whatever way it is rounded. Collective.
     template <int dim>
@@ -109,7 +146,9 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  MeshNeed<dim>::MeshNeed(const Problem<dim> &problem, const double time)
+  MeshNeed<dim>::MeshNeed(const Problem<dim>      &problem,
+                          const double             time,
+                          const std::vector<bool> &needed_before)
     : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
     , time(time)
     , levels(problem.parameters.adaptation.levels)
@@ -125,6 +164,7 @@ namespace perideal
     Places<dim> places;
     may_join = adaptation.coarsen_below > 0.;
     is_quiet.assign(nodes.size(), true);
+    needs_small.assign(nodes.size(), false);
     if (problem.force)
       {
         std::map<dealii::types::material_id, double> from;
@@ -133,20 +173,27 @@ namespace perideal
         const std::vector<double> utilisation = problem.force->utilisation();
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
-            is_quiet[i] = utilisation[i] < adaptation.coarsen_below;
-            if (utilisation[i] >= from.at(nodes.material[i]))
+            is_quiet[i]    = utilisation[i] < adaptation.coarsen_below;
+            needs_small[i] = utilisation[i] >= from.at(nodes.material[i]);
+            if (needs_small[i])
               places.emplace_back(nodes.position[i], reach_of(i));
           }
       }
-    double smallest = std::numeric_limits<double>::max();
+    std::vector<dealii::Point<dim>> earlier;
+    for (LocalIndex i = 0; i < needed_before.size(); ++i)
+      if (needed_before[i])
+        earlier.push_back(nodes.position[i]);
+    const Places<dim> ahead    = places_ahead<dim>(places, gathered(earlier, communicator));
+    double            smallest = std::numeric_limits<double>::max();
     for (LocalIndex i = 0; i < nodes.size(); ++i)
       smallest = std::min(smallest, reach_of(i));
     smallest = dealii::Utilities::MPI::min(smallest, communicator);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       for (const auto &point : edges_of(problem.failure.precracks, smallest))
         places.emplace_back(point, smallest);
+    urgent = boxes_around<dim>(places, 0.5, communicator);
+    places.insert(places.end(), ahead.begin(), ahead.end());
     within_reach = boxes_around<dim>(places, 1., communicator);
-    urgent       = boxes_around<dim>(places, 0.5, communicator);
     of_formula   = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
   }
 

@@ -39,6 +39,9 @@ namespace perideal
     /// Finds where the mesh is to be finer before the first step; needs the nodes. Collective.
     void look_at_first_mesh();
 
+    /// Registers which nodes needed small cells when the mesh changed last.
+    void register_state(LastingState &state);
+
     /// Whether the mesh is to change after a step, at a time; keeps what goes on then. Collective.
     bool is_due(const std::uint64_t step, const double time);
 
@@ -69,6 +72,8 @@ namespace perideal
     bool has_urgent_cells() const;
 
     Problem<dim> &problem;
+    /// Owned nodes that needed small cells when the mesh changed last; none at first.
+    std::vector<bool> needed_before;
   };
 } // namespace perideal
 

@@ -19,7 +19,9 @@ namespace perideal
     /// Those of the cell; the largest of cells that were joined.
     constant,
     /// By a quadratic polynomial, the sum over the cells times their volumes as it was.
-    smooth
+    smooth,
+    /// As constant ones, but the first number tells whether the node is one of a half: 1, of others 0.
+    marks_halves
   };
 
   /// As many numbers for each owned node, one node after another.

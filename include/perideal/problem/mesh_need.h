@@ -22,8 +22,10 @@ namespace perideal
   public:
     using Cell = typename dealii::Triangulation<dim>::active_cell_iterator;
 
-    /// Looks at a problem with nodes and, where it has one, at its force. Collective.
-    MeshNeed(const Problem<dim> &problem, const double time);
+    /// Looks at a problem with nodes and, where it has one, at its force. Places that moved since the mesh
+    /// changed last go on so: small cells also lie where they are to come to. Collective.
+    /// @param needed_before owned nodes that needed small cells then; none of any rank: nothing is known
+    MeshNeed(const Problem<dim> &problem, const double time, const std::vector<bool> &needed_before);
 
     /// Whether a cell lies where cells are to be halved so often at least: within the reach of a place that
     /// needs small cells, or so near to it that no family meets three sizes of cells, which would make some
@@ -56,6 +58,8 @@ namespace perideal
 
     /// By owned node: whether bonds are far enough below their limits for larger cells.
     std::vector<bool> is_quiet;
+    /// By owned node: whether it needs small cells around it.
+    std::vector<bool> needs_small;
     /// Whether any are ever joined.
     bool may_join = false;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
-#include <perideal/nodes/curve_order.h>
 #include <perideal/operators/force/contact_force.h>
 
 #include <deal.II/base/memory_consumption.h>
@@ -22,203 +21,115 @@ namespace perideal
     , horizon_factor(horizon_factor)
     , bulk_modulus(bulk_modulus)
     , spacing(families->n_local())
+    , reach(families->n_local())
     , stiffness(families->n_local())
-    , exposed(on_surface)
   {
     AssertDimension(on_surface.size(), families->n_owned());
+    sought.is_exposed = on_surface;
     lists.made_at.assign(families->position.begin(), families->position.begin() + families->n_owned());
     for (LocalIndex i = 0; i < families->n_local(); ++i)
       {
         const double horizon = families->horizon[i];
         spacing[i]           = horizon / horizon_factor;
+        reach[i]             = 0.5 * parameters.distance * spacing[i];
         stiffness[i] = parameters.stiffness * bulk_modulus(families->material[i]) * families->volume[i] /
                        (horizon * horizon);
       }
   }
 
   template <int dim>
-  typename ContactForce<dim>::Pair
-  ContactForce<dim>::pair_of_lost(const typename BondForce<dim>::LostBond &bond) const
+  void ContactForce<dim>::register_state(LastingState &state)
   {
-    const LocalIndex i = bond.near, j = bond.far;
-    // Shorter by what rounding may do, so that exactly nothing repels at rest.
-    const double rest = (1. - 1e-12) * families->position[i].distance(families->position[j]);
-    return {i,
-            j,
-            parameters.distance * std::min(0.5 * (spacing[i] + spacing[j]), rest),
-            std::min(stiffness[i], stiffness[j])};
+    // The mark of halves, and r over that of the spacing.
+    state.add_node_array(
+      "reach of contact",
+      "1",
+      2,
+      [&] {
+        std::vector<double> result;
+        for (LocalIndex i = 0; i < families->n_owned(); ++i)
+          result.insert(result.end(), {0., 2. * reach[i] / (parameters.distance * spacing[i])});
+        return result;
+      },
+      [&](const std::vector<double> &read) {
+        is_half.assign(families->n_local(), false);
+        unsigned int any = 0;
+        for (LocalIndex i = 0; i < families->n_owned(); ++i)
+          {
+            reach[i]   = 0.5 * parameters.distance * spacing[i] * read[2 * i + 1];
+            is_half[i] = read[2 * i] > 0;
+            any        = std::max<unsigned int>(any, is_half[i]);
+          }
+        publish_reach();
+        if (dealii::Utilities::MPI::max(any, families->communicator) == 0)
+          is_half.clear();
+        forget_lists();
+      },
+      LastingState::Show::never,
+      Transfer::marks_halves);
   }
 
   template <int dim>
-  double ContactForce<dim>::present_length(const Pair &pair) const
+  void ContactForce<dim>::publish_reach()
   {
-    double square = 0;
-    for (int d = 0; d < dim; ++d)
-      {
-        const double along = position[pair.j].value[d] - position[pair.i].value[d];
-        square += along * along;
-      }
-    return std::sqrt(square);
-  }
-
-  template <int dim>
-  void ContactForce<dim>::take_lost_bonds(const BondForce<dim> &bonds)
-  {
-    const auto &lost = bonds.lost_bonds();
-    for (; lists.n_lost_taken < lost.size(); ++lists.n_lost_taken)
-      {
-        const Pair pair = pair_of_lost(lost[lists.n_lost_taken]);
-        exposed[pair.i] = true;
-        if (pair.j < families->n_owned())
-          exposed[pair.j] = true;
-        // Either node may still move a whole spacing before the lists are made anew: from half a spacing
-        // on one side of where it was then to half a spacing on the other.
-        if (present_length(pair) < pair.distance + spacing[pair.i] + spacing[pair.j])
-          lists.once_bonded.push_back(pair);
-      }
-  }
-
-  template <int dim>
-  bool ContactForce<dim>::lists_are_old() const
-  {
-    unsigned int result = lists.are_made ? 0 : 1;
-    for (LocalIndex i = 0; i < families->n_owned() && result == 0; ++i)
-      {
-        double square = 0;
-        for (int d = 0; d < dim; ++d)
-          square +=
-            (position[i].value[d] - lists.made_at[i][d]) * (position[i].value[d] - lists.made_at[i][d]);
-        if (square > 0.25 * spacing[i] * spacing[i])
-          result = 1;
-      }
-    return dealii::Utilities::MPI::max(result, families->communicator) > 0;
-  }
-
-  template <int dim>
-  bool ContactForce<dim>::may_meet_strangers() const
-  {
-    // Strangers are more than the larger horizon apart at rest; half a spacing each may be added to where
-    // they are now.
-    const double slack  = 0.5 * (horizon_factor - parameters.distance - 1.);
-    unsigned int result = 0;
-    for (LocalIndex i = 0; i < families->n_owned() && result == 0; ++i)
-      {
-        double square = 0;
-        for (int d = 0; d < dim; ++d)
-          square += (position[i].value[d] - families->position[i][d]) *
-                    (position[i].value[d] - families->position[i][d]);
-        if (slack <= 0 || square > slack * slack * spacing[i] * spacing[i])
-          result = 1;
-      }
-    return dealii::Utilities::MPI::max(result, families->communicator) > 0;
-  }
-
-  template <int dim>
-  void ContactForce<dim>::list_lost_bonds(const BondForce<dim> &bonds)
-  {
-    lists.once_bonded.clear();
-    for (const auto &bond : bonds.lost_bonds())
-      {
-        const Pair pair = pair_of_lost(bond);
-        if (present_length(pair) < pair.distance + 0.5 * (spacing[pair.i] + spacing[pair.j]))
-          lists.once_bonded.push_back(pair);
-      }
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      for (int d = 0; d < dim; ++d)
-        lists.made_at[i][d] = position[i].value[d];
-    lists.are_made = true;
-  }
-
-  template <int dim>
-  bool ContactForce<dim>::are_family(const LocalIndex i, const GlobalIndex j) const
-  {
-    const GlobalIndex first   = families->global_number(0);
-    const LocalIndex  n_owned = families->n_owned();
-    LocalIndex        local_j;
-    if (j >= first && j < first + n_owned)
-      local_j = j - first;
-    else
-      {
-        const auto &ghosts = families->ghost_number;
-        const auto  at     = std::lower_bound(ghosts.begin(), ghosts.end(), j);
-        if (at == ghosts.end() || *at != j)
-          return false;
-        local_j = n_owned + (at - ghosts.begin());
-      }
-    return families->are_members(i, local_j);
-  }
-
-  template <int dim>
-  NodeCloud<dim> ContactForce<dim>::candidates()
-  {
-    NodeCloud<dim>                  cloud;
-    std::vector<LocalIndex>         candidate;
-    std::vector<dealii::Point<dim>> present;
+    NodalVector of_all(families->make_partitioner(2));
     for (LocalIndex i = 0; i < families->n_owned(); ++i)
       {
-        dealii::Point<dim> y;
-        for (int d = 0; d < dim; ++d)
-          y[d] = position[i].value[d];
-        if (exposed[i] && std::isfinite(y.square()))
-          {
-            candidate.push_back(i);
-            present.push_back(y);
-          }
+        of_all.local_element(2 * i)     = reach[i];
+        of_all.local_element(2 * i + 1) = !is_half.empty() && is_half[i] ? 1. : 0.;
       }
-    // Debris is no longer in the order of the body.
-    sought.node.clear();
-    for (const LocalIndex k : order_along_curve(present))
+    of_all.update_ghost_values();
+    for (LocalIndex i = families->n_owned(); i < families->n_local(); ++i)
       {
-        const LocalIndex i = candidate[k];
-        sought.node.push_back(i);
-        cloud.position.push_back(present[k]);
-        cloud.volume.push_back(families->volume[i]);
-        cloud.spacing.push_back(spacing[i]);
-        cloud.horizon.push_back(search_radius() * spacing[i]);
-        cloud.material.push_back(families->material[i]);
+        reach[i] = of_all.local_element(2 * i);
+        if (!is_half.empty())
+          is_half[i] = of_all.local_element(2 * i + 1) > 0;
       }
-    cloud.communicator = families->communicator;
-    cloud.number();
-    return cloud;
   }
 
   template <int dim>
-  void ContactForce<dim>::search()
+  void ContactForce<dim>::release_halves()
   {
-    const NodeCloud<dim> cloud = candidates();
-    const GlobalIndex    n_all =
-      dealii::Utilities::MPI::sum(static_cast<GlobalIndex>(families->n_owned()), families->communicator);
-    sought.n_left_out = n_all - cloud.n_global;
-    ++sought.n_searches;
-    lists.strangers.clear();
-    lists.any_strangers = false;
-    if (cloud.n_global == 0)
-      return;
-
-    const Families<dim> found(cloud);
-    NodalVector         number(found.make_partitioner(1));
-    for (LocalIndex a = 0; a < sought.node.size(); ++a)
-      number.local_element(a) = families->global_number(sought.node[a]);
-    number.update_ghost_values();
-    const auto constants = [&](const LocalIndex a) {
-      const double h = found.horizon[a] / search_radius();
-      return std::make_pair(h,
-                            parameters.stiffness * bulk_modulus(found.material[a]) * found.volume[a] /
-                              (h * h * horizon_factor * horizon_factor));
-    };
-    for (LocalIndex a = 0; a < sought.node.size(); ++a)
-      for (const LocalIndex *b = std::upper_bound(found.begin(a), found.end(a), a); b != found.end(a); ++b)
-        if (!are_family(sought.node[a], static_cast<GlobalIndex>(number.local_element(*b))))
+    // All by r as it was, so that neither order nor ranks matter.
+    const std::vector<double> before = reach;
+    const auto                lessen =
+      [&](const LocalIndex i, const double of_other, const bool is_half_too, const double length) {
+        const double allowed =
+          is_half_too ? length * before[i] / (before[i] + of_other) : std::max(0., length - of_other);
+        if (i < families->n_owned() && is_half[i])
+          reach[i] = std::min(reach[i], allowed);
+      };
+    for (const Pair &pair : lists.once_bonded)
+      if (const double length = present_length(pair); length < pair.distance)
+        {
+          lessen(pair.i, before[pair.j], is_half[pair.j], length);
+          lessen(pair.j, before[pair.i], is_half[pair.i], length);
+        }
+    if (lists.any_strangers)
+      {
+        place_strangers();
+        const LocalIndex n_sought = sought.node.size();
+        for (const Pair &pair : lists.strangers)
           {
-            const auto of_a = constants(a), of_b = constants(*b);
-            lists.strangers.push_back({a,
-                                       *b,
-                                       0.5 * parameters.distance * (of_a.first + of_b.first),
-                                       std::min(of_a.second, of_b.second)});
+            double square = 0;
+            for (int d = 0; d < dim; ++d)
+              square += std::pow(sought.position.local_element(dim * pair.j + d) -
+                                   sought.position.local_element(dim * pair.i + d),
+                                 2);
+            const double length = std::sqrt(square);
+            if (!(length < pair.distance))
+              continue;
+            const auto of = [&](const LocalIndex a, const unsigned int k) {
+              return sought.reach.local_element(2 * a + k);
+            };
+            lessen(sought.node[pair.i], of(pair.j, 0), of(pair.j, 1) > 0, length);
+            if (pair.j < n_sought)
+              lessen(sought.node[pair.j], of(pair.i, 0), of(pair.i, 1) > 0, length);
           }
-    sought.position.reinit(found.make_partitioner(dim));
-    lists.any_strangers =
-      dealii::Utilities::MPI::max(lists.strangers.empty() ? 0u : 1u, families->communicator) > 0;
+        sought.position.zero_out_ghost_values();
+      }
+    is_half.clear();
+    publish_reach();
   }
 
   template <int dim>
@@ -260,13 +171,11 @@ namespace perideal
     take_lost_bonds(bonds);
     if (lists_are_old())
       {
-        list_lost_bonds(bonds);
-        if (may_meet_strangers())
-          search();
-        else
+        make_lists(bonds);
+        if (!is_half.empty())
           {
-            lists.strangers.clear();
-            lists.any_strangers = false;
+            release_halves();
+            make_lists(bonds);
           }
       }
 
@@ -275,10 +184,7 @@ namespace perideal
       repel(pair, position[pair.i].value, position[pair.j].value, pair.i, pair.j, force);
     if (!lists.any_strangers)
       return;
-    for (LocalIndex a = 0; a < sought.node.size(); ++a)
-      for (int d = 0; d < dim; ++d)
-        sought.position.local_element(dim * a + d) = position[sought.node[a]].value[d];
-    sought.position.update_ghost_values();
+    place_strangers();
     const double *y = sought.position.begin();
     for (const Pair &pair : lists.strangers)
       repel(pair,
@@ -300,8 +206,9 @@ namespace perideal
   std::size_t ContactForce<dim>::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return memory_consumption(spacing) + memory_consumption(stiffness) + memory_consumption(exposed) +
-           lists.made_at.capacity() * sizeof(lists.made_at[0]) + memory_consumption(sought.node) +
+    return memory_consumption(spacing) + memory_consumption(reach) + memory_consumption(stiffness) +
+           memory_consumption(sought.is_exposed) + lists.made_at.capacity() * sizeof(lists.made_at[0]) +
+           memory_consumption(sought.node) +
            (lists.once_bonded.capacity() + lists.strangers.capacity()) * sizeof(Pair);
   }
 

@@ -15,6 +15,7 @@ perideal_room(operators/force
   LOOPS
     consistent_force.cc
     contact_force.cc
+    contact_lists.cc
     correspondence_force.cc
     family_force.cc
     family_force_energy.cc

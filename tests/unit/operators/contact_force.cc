@@ -277,6 +277,57 @@ TEST(ContactForce, SearchesTheSurfaceAlone)
   EXPECT_LE(all.force.linfty_norm(), 1e-13 * few.linfty_norm());
 }
 
+/// Halves of cells that were nearer than halves may come begin unpushed, whether they meet what they were
+/// bonded to or strangers, and are pushed as soon as they come nearer still.
+TEST(ContactForce, HalvesBeginUnpushed)
+{
+  const auto mesh   = test::make_box<2>({20, 20}, {1., 1.}, 0.1);
+  const auto closer = [](const double gap, const double slip) {
+    return [=](const dealii::Point<2> &x) {
+      return dealii::Tensor<1, 2>(dealii::Point<2>(x[0] < 0.5 ? 0. : -gap, x[0] < 0.5 ? 0. : slip));
+    };
+  };
+  for (const double slip : {0., 0.31})
+    for (const double side : {0.5, 1.1}) // halves on one side, on both
+      {
+        CutBody<2> cut(*mesh);
+        cut.force_of(closer(0.02, slip));
+        const double pushed = cut.contact->energy();
+        ASSERT_GT(pushed, 0.);
+        LastingState state;
+        cut.contact->register_state(state);
+        Checkpoint checkpoint;
+        state.save(checkpoint);
+        auto &values = checkpoint.node_arrays.at("reach of contact").values;
+        for (LocalIndex i = 0; i < cut.body.nodes.size(); ++i)
+          {
+            EXPECT_DOUBLE_EQ(values[2 * i + 1], 1.);
+            values[2 * i] = cut.body.nodes.position[i][0] < side ? 1. : 0.;
+          }
+        state.resume(checkpoint);
+        cut.force_of(closer(0.02, slip));
+        EXPECT_LE(cut.contact->energy(), 1e-20 * pushed) << slip << ' ' << side;
+        cut.force_of(closer(0.021, slip));
+        EXPECT_GT(cut.contact->energy(), 0.);
+        // What goes on from here knows it; nobody is a half any more.
+        state.save(checkpoint);
+        state.resume(checkpoint);
+        cut.force_of(closer(0.02, slip));
+        EXPECT_LE(cut.contact->energy(), 1e-20 * pushed);
+        double least = 1.;
+        for (LocalIndex i = 0; i < cut.body.nodes.size(); ++i)
+          {
+            EXPECT_EQ(values[2 * i], 0.);
+            least = std::min(least, values[2 * i + 1]);
+            if (!(cut.body.nodes.position[i][0] < side))
+              {
+                EXPECT_EQ(values[2 * i + 1], 1.);
+              }
+          }
+        EXPECT_LT(dealii::Utilities::MPI::min(least, MPI_COMM_WORLD), 0.99);
+      }
+}
+
 TEST(ContactForce, RejectsValuesOutOfRange)
 {
   ContactParameters parameters;

@@ -4,6 +4,7 @@
 
 #include <perideal/operators/force/bond_force.h>
 #include <perideal/operators/force/contact_parameters.h>
+#include <perideal/output/lasting_state.h>
 
 #include <functional>
 #include <memory>
@@ -17,7 +18,7 @@ namespace perideal
    * nearer than d_ij are pushed apart along the line between them, with the energy
    *
    *     k_ij (d_ij - |y_j - y_i|)^2/2,   k_ij = min(k_i, k_j),   k_i = stiffness K_i V_i/horizon_i^2,
-   *     d_ij = distance min((D_i + D_j)/2, |xi|),
+   *     d_ij = min(r_i + r_j, distance |xi|),   r_i = distance D_i/2,
    *
    * K the bulk modulus of the body's dimension, D the spacing. With distance <= 1 nothing repels at rest, and
    * as bonds break longer than at rest no energy appears when they do.
@@ -32,6 +33,10 @@ namespace perideal
    * Others are more than a horizon apart at rest: they are sought, at present positions, once nodes have
    * moved far enough to meet, and only between nodes on the surface or with a lost bond. Lists hold what may
    * touch until a node has moved by half a spacing, and are made anew then.
+   *
+   * Where a cell is halved, r of its halves may be larger than what cells of its size kept free between them:
+   * these come nearer by a tenth of their spacing before they touch. Such halves would be thrown apart by
+   * energy from nowhere, so they begin with as much less r as nothing pushes them.
    */
   template <int dim>
   class ContactForce
@@ -51,6 +56,9 @@ namespace perideal
     void add(NodalVector &force, const BondForce<dim> &bonds);
 
     std::size_t memory_consumption() const;
+
+    /// Registers r over distance D/2 of nodes, from which it differs where cells were halved.
+    void register_state(LastingState &state);
 
     /// Makes the lists anew in the next add(), as a run does that continues from a checkpoint.
     void forget_lists() { lists.are_made = false; }
@@ -83,6 +91,14 @@ namespace perideal
     /// their family. Collective.
     bool may_meet_strangers() const;
     void list_lost_bonds(const BondForce<dim> &bonds);
+    /// Lists what may touch. Collective.
+    void make_lists(const BondForce<dim> &bonds);
+    /// Lessens r of halves until no pair of the lists pushes them. Collective.
+    void release_halves();
+    /// Brings positions of strangers up to date, and of their ghosts. Collective.
+    void place_strangers();
+    /// Brings r of nodes of other ranks up to date, and which are halves. Collective.
+    void publish_reach();
     /// Over the spacing: what may come within the contact distance until the lists are old.
     double search_radius() const { return parameters.distance + 1.; }
     /// What may touch, at present positions; sets the nodes sought.
@@ -102,10 +118,10 @@ namespace perideal
     const double                         horizon_factor;
 
     std::function<double(const dealii::types::material_id)> bulk_modulus;
-    /// Of local nodes: spacing [m], stiffness [N/m].
-    std::vector<double> spacing, stiffness;
-    /// Of owned nodes: on the surface or with a lost bond.
-    std::vector<bool> exposed;
+    /// Of local nodes: spacing, r [m], stiffness [N/m].
+    std::vector<double> spacing, reach, stiffness;
+    /// Of local nodes: of a cell that was halved just now; empty where there are none on any rank.
+    std::vector<bool> is_half;
 
     const NodeRecord *position = nullptr;
 
@@ -121,11 +137,13 @@ namespace perideal
     };
     Lists lists;
 
-    /// Nodes among which the last search looked for strangers, and how many it left out.
+    /// Owned nodes that are sought: on the surface or with a lost bond. Nodes among which the last search
+    /// looked for strangers, their r [m] and whether they are halves, and how many it left out.
     struct Search
     {
+      std::vector<bool>       is_exposed;
       std::vector<LocalIndex> node;
-      NodalVector             position;
+      NodalVector             position, reach;
       unsigned int            n_searches = 0;
       GlobalIndex             n_left_out = 0;
     };
