@@ -93,7 +93,7 @@ namespace perideal
     /// Where the places of this rank are to come to if they move on as they did since earlier ones, those of
     /// all ranks: twice as far again, two reaches at most. A place that moved by less than a quarter of its
     /// reach only became wider, and more than three reaches from all earlier ones it came from none of them.
-    /// So a crack that runs straight changes the mesh where it has run through some three reaches, not
+    /// So a crack that runs straight changes the mesh where it has run through two and a half reaches, not
     /// through half of one, and one that turns needs a change once more.
     template <int dim>
     Places<dim> places_ahead(const Places<dim> &mine, const std::vector<dealii::Point<dim>> &earlier)
