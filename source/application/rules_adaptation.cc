@@ -64,14 +64,15 @@ namespace perideal
         "0 with Thermal strain/Temperature"),
       refuse(
         levels,
-        "neither bonds that can fail, nor Precracks, nor Adaptation/Refine where",
+        "neither bonds that can fail, nor Precracks, nor Adaptation/Refine where, at or in",
         [](const Scene &s) {
           return s.adaptation.is_by_need() && !can_break(s) && s.precracks.cracks.empty() &&
-                 s.adaptation.where.empty();
+                 !s.adaptation.has_regions();
         },
         "nothing says where cells are to be smaller",
         "0 for this scene",
-        "give Material/Fracture energy, or a formula in Adaptation/Refine where"),
+        "give Material/Fracture energy, or a formula in Adaptation/Refine where, or names in Refine at or "
+        "in"),
     };
   }
 } // namespace perideal

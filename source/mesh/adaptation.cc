@@ -69,6 +69,17 @@ namespace perideal
                       "Cells with their centre where this formula in x, y, z [m] and t [s] is not zero are "
                       "halved besides, and as time goes on joined again where Coarsen below lets them",
                       dealii::Patterns::Anything());
+    using dealii::Patterns::List;
+    const List names(dealii::Patterns::Anything(), 0, List::max_int_value, ",");
+    prm.add_parameter("Refine at",
+                      refine_at,
+                      "Boundaries (names or ids, separated by commas) around which cells are halved besides, "
+                      "as far as Reach",
+                      names);
+    prm.add_parameter("Refine in",
+                      refine_in,
+                      "Groups of cells (names or material ids, separated by commas) that are halved besides",
+                      names);
     prm.leave_subsection();
   }
 

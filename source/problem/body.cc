@@ -93,6 +93,7 @@ namespace perideal
       mesh->boundary_id(name, "Output/Boundary stress");
     for (const auto &group : parameters.material.groups)
       mesh->material_id(group.first, "Material/" + group.first);
+    static_cast<void>(NamedRegions(parameters.adaptation, *mesh));
     solids = solids_on(*mesh);
     box    = box_of(*mesh);
   }

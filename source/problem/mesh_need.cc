@@ -127,21 +127,74 @@ namespace perideal
       return result;
     }
 
-    /// Boxes around places of all ranks, as far as a factor of their reach and a hair less: cells that touch
-    /// one are not in it, whatever way it is rounded. Collective.
     template <int dim>
-    dealii::RTree<dealii::BoundingBox<dim>>
-    boxes_around(const Places<dim> &mine, const double factor, MPI_Comm communicator)
+    using ManyBoxes = std::vector<dealii::BoundingBox<dim>>;
+
+    /// Boxes around places of this rank, as far as a factor of their reach and a hair less: cells that touch
+    /// one are not in it, whatever way it is rounded.
+    template <int dim>
+    ManyBoxes<dim> boxes_around(const Places<dim> &places, const double factor)
     {
-      std::vector<dealii::BoundingBox<dim>> boxes;
+      ManyBoxes<dim> result;
+      for (const auto &[middle, reach] : places)
+        {
+          result.push_back(dealii::BoundingBox<dim>({middle, middle}));
+          result.back().extend((1. - Nodes<dim>::round_off) * factor * reach);
+        }
+      return result;
+    }
+
+    /// Boxes around the faces of owned cells at some boundaries, as far as a reach [m].
+    template <int dim>
+    ManyBoxes<dim> boxes_along(const std::set<dealii::types::boundary_id> &boundaries,
+                               const double                                reach,
+                               const Mesh<dim>                            &mesh)
+    {
+      ManyBoxes<dim> result;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const auto &face : cell->face_iterators())
+            if (face->at_boundary() && boundaries.count(face->boundary_id()) > 0)
+              {
+                result.push_back(face->bounding_box());
+                result.back().extend((1. - Nodes<dim>::round_off) * reach);
+              }
+      return result;
+    }
+
+    /// Boxes of the owned cells of some groups that have a neighbour in none of them.
+    template <int dim>
+    ManyBoxes<dim> ends_of(const std::set<dealii::types::material_id> &groups, const Mesh<dim> &mesh)
+    {
+      ManyBoxes<dim> result;
+      if (groups.empty())
+        return result;
+      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() && groups.count(cell->material_id()) > 0)
+          for (const unsigned int f : cell->face_indices())
+            if (!cell->at_boundary(f) && groups.count(cell->neighbor(f)->material_id()) == 0)
+              {
+                result.push_back(cell->bounding_box());
+                result.back().extend(-Nodes<dim>::round_off * cell->minimum_vertex_distance());
+                break;
+              }
+      return result;
+    }
+
+    /// Those of all ranks. Collective.
+    template <int dim>
+    dealii::RTree<dealii::BoundingBox<dim>> of_all(const ManyBoxes<dim> &mine, MPI_Comm communicator)
+    {
+      ManyBoxes<dim> boxes;
       for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, mine))
-        for (const auto &[middle, reach] : of_rank)
-          {
-            dealii::BoundingBox<dim> box({middle, middle});
-            box.extend((1. - Nodes<dim>::round_off) * factor * reach);
-            boxes.push_back(box);
-          }
+        boxes.insert(boxes.end(), of_rank.begin(), of_rank.end());
       return dealii::pack_rtree(boxes);
+    }
+
+    template <typename Value>
+    void append(std::vector<Value> &values, const std::vector<Value> &more)
+    {
+      values.insert(values.end(), more.begin(), more.end());
     }
   } // namespace
 
@@ -191,10 +244,23 @@ namespace perideal
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       for (const auto &point : edges_of(problem.failure.precracks, smallest))
         places.emplace_back(point, smallest);
-    urgent = boxes_around<dim>(places, 0.5, communicator);
+
+    const Mesh<dim>   &mesh = *problem.body.mesh;
+    const NamedRegions named(adaptation, mesh);
+    groups = named.groups;
+
+    ManyBoxes<dim> boxes = boxes_around(places, 0.5);
+    append(boxes, boxes_along(named.boundaries, 0.5 * smallest, mesh));
+    urgent = of_all(boxes, communicator);
+
     places.insert(places.end(), ahead.begin(), ahead.end());
-    within_reach = boxes_around<dim>(places, 1., communicator);
-    of_formula   = boxes_around<dim>(parts_where(where, time, *problem.body.mesh, levels), 1., communicator);
+    boxes = boxes_around(places, 1.);
+    append(boxes, boxes_along(named.boundaries, smallest, mesh));
+    within_reach = of_all(boxes, communicator);
+
+    boxes = boxes_around(parts_where(where, time, mesh, levels), 1.);
+    append(boxes, ends_of(groups, mesh));
+    of_regions = of_all(boxes, communicator);
   }
 
   template <int dim>
@@ -256,8 +322,9 @@ namespace perideal
     auto box      = cell->bounding_box();
     box.extend(margin);
     const auto is_near = [&](const Boxes &all) { return all.qbegin(bgi::intersects(box)) != all.qend(); };
-    return is_near(boxes) || (where.is_present() && (where.value(cell->center(), time) != 0. ||
-                                                     (margin > 0 && is_near(of_formula))));
+    return is_near(boxes) || groups.count(cell->material_id()) > 0 ||
+           (where.is_present() && where.value(cell->center(), time) != 0.) ||
+           (margin > 0 && is_near(of_regions));
   }
 
   PERIDEAL_INSTANTIATE_CLASS(MeshNeed)

@@ -35,6 +35,8 @@ namespace perideal
     unsigned int interval = 5;
     /// Where cells are halved besides, not zero there: a formula in x, y, z, t; empty: nowhere.
     std::string where;
+    /// Boundaries around which they are, and groups of cells that are: names or ids.
+    std::vector<std::string> refine_at, refine_in;
 
     void declare(dealii::ParameterHandler &prm);
 
@@ -42,6 +44,25 @@ namespace perideal
     bool is_by_error() const { return wanted_error > 0.; }
     /// Whether it is to change while the scene runs.
     bool is_by_need() const { return levels > 0; }
+    /// Whether cells are to be halved in places that the scene names.
+    bool has_regions() const { return !where.empty() || !refine_at.empty() || !refine_in.empty(); }
+  };
+
+  /// Where the scene wants cells halved by name: around boundaries, and in groups of cells.
+  struct NamedRegions
+  {
+    std::set<dealii::types::boundary_id> boundaries;
+    std::set<dealii::types::material_id> groups;
+
+    /// @throws InputError when the mesh has no boundary or group of a name.
+    template <int dim>
+    NamedRegions(const AdaptationParameters &parameters, const Mesh<dim> &mesh)
+    {
+      for (const std::string &name : parameters.refine_at)
+        boundaries.insert(mesh.boundary_id(name, "Adaptation/Refine at"));
+      for (const std::string &name : parameters.refine_in)
+        groups.insert(mesh.material_id(name, "Adaptation/Refine in"));
+    }
   };
 
   /// A mesh in figures.

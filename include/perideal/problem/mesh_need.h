@@ -8,13 +8,15 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/numerics/rtree.h>
 
+#include <set>
 #include <vector>
 
 namespace perideal
 {
   /**
    * Knows where a body needs its smallest cells at a time: around nodes whose bonds come near their limits,
-   * around the edges of precracks, and where a formula says so. It holds no reference to the problem.
+   * around the edges of precracks, at boundaries and in groups of cells that the scene names, and where a
+   * formula says so. It holds no reference to the problem.
    */
   template <int dim>
   class MeshNeed
@@ -81,9 +83,11 @@ namespace perideal
     unsigned int           levels;
     /// layers_between_sizes(), and the horizon over the spacing.
     double layers, horizon_factor;
-    /// Around nodes and edges; and where the formula says so, in parts of cells of the mesh that was looked
-    /// at.
-    Boxes within_reach, urgent, of_formula;
+    /// Of cells that are to be small.
+    std::set<dealii::types::material_id> groups;
+    /// Around nodes, edges and boundaries; and of the regions, where the formula says so, in parts of cells
+    /// of the mesh that was looked at, and where a group ends.
+    Boxes within_reach, urgent, of_regions;
   };
 } // namespace perideal
 
