@@ -144,20 +144,23 @@ namespace perideal
       return result;
     }
 
-    /// Boxes around the faces of owned cells at some boundaries, as far as a reach [m].
+    /// Boxes around the faces of owned cells at some boundaries, as far as a reach in smallest spacings [-].
     template <int dim>
     ManyBoxes<dim> boxes_along(const std::set<dealii::types::boundary_id> &boundaries,
                                const double                                reach,
-                               const Mesh<dim>                            &mesh)
+                               const Body<dim>                            &body)
     {
-      ManyBoxes<dim> result;
-      for (const auto &cell : mesh.triangulation.active_cell_iterators())
+      ManyBoxes<dim>    result;
+      const Nodes<dim> &nodes = *body.nodes;
+      for (const auto &cell : body.mesh->triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && cell->at_boundary())
           for (const auto &face : cell->face_iterators())
             if (face->at_boundary() && boundaries.count(face->boundary_id()) > 0)
               {
+                const LocalIndex i = nodes.node_of_cell[cell->active_cell_index()];
                 result.push_back(face->bounding_box());
-                result.back().extend((1. - Nodes<dim>::round_off) * reach);
+                result.back().extend((1. - Nodes<dim>::round_off) * reach * nodes.spacing[i] *
+                                     nodes.finest_share(i));
               }
       return result;
     }
@@ -250,12 +253,12 @@ namespace perideal
     groups = named.groups;
 
     ManyBoxes<dim> boxes = boxes_around(places, 0.5);
-    append(boxes, boxes_along(named.boundaries, 0.5 * smallest, mesh));
+    append(boxes, boxes_along(named.boundaries, 0.5 * adaptation.reach, problem.body));
     urgent = of_all(boxes, communicator);
 
     places.insert(places.end(), ahead.begin(), ahead.end());
     boxes = boxes_around(places, 1.);
-    append(boxes, boxes_along(named.boundaries, smallest, mesh));
+    append(boxes, boxes_along(named.boundaries, adaptation.reach, problem.body));
     within_reach = of_all(boxes, communicator);
 
     boxes = boxes_around(parts_where(where, time, mesh, levels), 1.);
