@@ -150,7 +150,9 @@ namespace perideal
                                const double                                reach,
                                const Body<dim>                            &body)
     {
-      ManyBoxes<dim>    result;
+      ManyBoxes<dim> result;
+      if (boundaries.empty())
+        return result;
       const Nodes<dim> &nodes = *body.nodes;
       for (const auto &cell : body.mesh->triangulation.active_cell_iterators())
         if (cell->is_locally_owned() && cell->at_boundary())
