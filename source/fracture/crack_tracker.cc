@@ -85,7 +85,7 @@ namespace perideal
           "Outer radius [m] of the ring of cells around the tip, the inner one is a third of it, "
           "over which the energy release rate is integrated: two horizons or more, and no more "
           "than to the surface of the body, other materials, point loads and other cracks; 0: as "
-          "large as there is room, up to eight horizons",
+          "large as there is room, up to eight of the largest horizons in it",
           Double(0));
         prm.leave_subsection();
       }

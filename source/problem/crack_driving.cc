@@ -138,6 +138,23 @@ namespace perideal
     return dealii::Utilities::MPI::min(result, problem.run.communicator);
   }
 
+  double CrackDriving::radius_in(const PlaneTip &tip, const double room, const double horizon_at_tip) const
+  {
+    const Nodes<2> &nodes = *problem.body.nodes;
+    for (double horizon = horizon_at_tip;;)
+      {
+        const double radius  = std::min(room - margin * horizon, Tip::most_horizons * horizon);
+        double       largest = horizon;
+        for (LocalIndex i = 0; i < nodes.size(); ++i)
+          if (nodes.position[i].distance(tip.position) < radius)
+            largest = std::max(largest, nodes.horizon[i]);
+        largest = dealii::Utilities::MPI::max(largest, problem.run.communicator);
+        if (largest == horizon)
+          return radius;
+        horizon = largest;
+      }
+  }
+
   CrackDriving::States CrackDriving::states(const std::vector<LocalIndex> &nodes) const
   {
     States result;
@@ -221,9 +238,8 @@ namespace perideal
         const NearestNode own    = nearest_node(problem, tips[k].tip.position);
         Result           &of_tip = result[k];
         of_tip.room              = std::min(room(tips[k].tip), tips[k].limit);
-        of_tip.radius            = tips[k].radius > 0 ?
-                                     tips[k].radius :
-                                     std::min(of_tip.room - margin * own.horizon, Tip::most_horizons * own.horizon);
+        of_tip.radius =
+          tips[k].radius > 0 ? tips[k].radius : radius_in(tips[k].tip, of_tip.room, own.horizon);
         if (of_tip.radius < Tip::fewest_horizons * own.horizon || of_tip.radius > of_tip.room)
           of_tip.radius = 0;
         integrals.emplace_back(tips[k].tip,

@@ -51,7 +51,8 @@ namespace perideal
     struct Tip
     {
       PlaneTip tip;
-      /// Outer radius of the ring [m]; 0: as large as there is room, up to so many horizons at the tip.
+      /// Outer radius of the ring [m]; 0: as large as there is room, up to so many of the largest horizons in
+      /// it.
       double                  radius          = 0;
       static constexpr double most_horizons   = 8;
       static constexpr double fewest_horizons = 2;
@@ -78,6 +79,13 @@ namespace perideal
     double room(const PlaneTip &tip) const;
 
   private:
+    /**
+     * Returns the outer radius of a ring whose tip tells none [m], negative where there is no room for any.
+     * Cells that get smaller towards the tip say nothing about how far from it the field is well described:
+     * there the smallest ones stand where it is worst. Collective.
+     */
+    double radius_in(const PlaneTip &tip, const double room, const double horizon_at_tip) const;
+
     /// What the integrals need of nodes.
     struct States
     {
