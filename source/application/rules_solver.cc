@@ -192,12 +192,15 @@ namespace perideal
         "set Solver/Damping"),
       refuse(
         "Solver/Local step ratio",
-        "Solver/Local step ratio > 1, with Material/Form = consistent, Model = correspondence | tensor "
-        "involved or Multipliers = recomputed",
-        [](const Scene &s) { return has_local_steps(s) && !has_families_of_bonds(s.model); },
-        "steps are those of families of bonds, which this model or form has not, or weighs anew",
+        "Solver/Local step ratio > 1, with Material/Model = correspondence | tensor involved or Multipliers "
+        "= "
+        "recomputed",
+        [](const Scene &s) {
+          return has_local_steps(s) && !has_families_of_bonds(s.model) && !s.model.is_consistent();
+        },
+        "steps are those of families of bonds that are not weighed anew, or of cells",
         "1",
-        "set Material/Form = energy"),
+        "set Material/Form = consistent | energy"),
       refuse(
         "Solver/Local step ratio",
         "Solver/Local step ratio > 1, with bonds that break or contact",

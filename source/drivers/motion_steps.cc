@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/exceptions.h>
 #include <perideal/drivers/motion_steps.h>
+#include <perideal/operators/force/cell_steps.h>
 #include <perideal/operators/system/stable_time_step.h>
 #include <perideal/output/summary.h>
 
@@ -41,12 +42,18 @@ namespace perideal
         .hint("look at Solver/End time and Solver/Time step [s], Material/Density [kg/m^3] and Young "
               "modulus [Pa], "
               "and at the size of the body [m]");
-    resume(solver, solver.end_time / n_wanted);
+    take(solver, solver.end_time / n_wanted);
   }
 
   void MotionSteps::resume(const SolverParameters &solver, const double earlier)
   {
-    size   = earlier;
+    is_resumed = true;
+    take(solver, earlier);
+  }
+
+  void MotionSteps::take(const SolverParameters &solver, const double step)
+  {
+    size   = step;
     number = std::ceil(solver.end_time / size - 1e-6);
   }
 
@@ -56,7 +63,7 @@ namespace perideal
       return "";
     while (shortest() / parts > solver.time_step_safety * stable)
       parts *= 2;
-    resume(solver, size / parts);
+    take(solver, size / parts);
     return "the changed mesh is stable with shorter steps only: from here on they are " + short_number(size) +
            " s. Where cells failed before they were small, take a larger Adaptation/Reach or a smaller "
            "Interval";
@@ -66,14 +73,21 @@ namespace perideal
   void MotionSteps::choose_levels(const Problem<dim>                                     &problem,
                                   const std::function<double(const std::vector<bool> &)> &stable_of)
   {
-    if (n_levels > 1)
-      levels = local_step_levels<dim>(
-        *problem.system,
-        [&](const dealii::types::material_id id) { return problem.body.density_of(id); },
-        stable_of,
-        shortest(),
-        problem.parameters.solver.time_step_safety,
-        n_levels);
+    const SolverParameters &solver = problem.parameters.solver;
+    for (unsigned int trials = 1; n_levels > 1; ++trials)
+      {
+        const LocalStepLevels chosen = local_step_levels<dim>(
+          *problem.system,
+          [&](const dealii::types::material_id id) { return problem.body.density_of(id); },
+          stable_of,
+          shortest(),
+          solver.time_step_safety,
+          n_levels);
+        levels = chosen.of_nodes;
+        if (is_resumed || solver.time_step > 0 || chosen.shortening == 1. || trials == n_levels)
+          return;
+        take(solver, solver.end_time / std::ceil(solver.end_time * chosen.shortening / size));
+      }
   }
 
   template <int dim>
@@ -81,8 +95,13 @@ namespace perideal
   {
     if (n_levels == 1)
       return;
-    local = std::make_shared<const LocalSteps>(
-      *problem.discretisation.families, problem.force->bond_list(), levels, n_levels);
+    const auto &moments  = problem.discretisation.gradients.moments;
+    const auto &families = *problem.discretisation.families;
+    const auto &bonds    = problem.force->bond_list();
+    if (moments)
+      local = std::make_shared<const CellSteps>(*moments, families, bonds, levels, n_levels);
+    else
+      local = std::make_shared<const LocalSteps>(families, bonds, levels, n_levels);
     levels.clear();
     // A mesh that adapts will have smaller cells.
     if (local->any_up_to(n_levels - 2) && local->n_families().back() == 0)

@@ -76,7 +76,7 @@ namespace perideal
   void ExplicitDynamics<dim>::work_of_faces()
   {
     held.faces->prepare_step(loads, time(), scheme.time_step);
-    const auto  force   = bonds.support_forces();
+    const auto  force   = face_reaction();
     const auto &entries = held.faces->entries();
     for (std::size_t e = 0; e < entries.size(); ++e)
       {

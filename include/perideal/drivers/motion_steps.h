@@ -34,6 +34,7 @@ namespace perideal
     std::string divide(const SolverParameters &solver);
 
     /// Chooses the nodes with longer steps than the shortest, where the scene wants that. Collective.
+    /// Steps that nobody asked for become shorter where many more nodes can take long ones then.
     /// @param stable_of the largest stable step of some nodes, all others held [s]
     template <int dim>
     void choose_levels(const Problem<dim>                                     &problem,
@@ -58,7 +59,10 @@ namespace perideal
     std::shared_ptr<const LocalSteps> local;
 
   private:
-    unsigned int n_levels = 1;
+    void take(const SolverParameters &solver, const double step);
+
+    bool         is_resumed = false;
+    unsigned int n_levels   = 1;
     /// By owned node.
     std::vector<unsigned int> levels;
   };

@@ -123,9 +123,12 @@ namespace perideal
     /// Forces of the supports on nodes at the present time [N], zero in free components.
     const NodalVector &reaction() const { return work.support_force; }
     /// Forces of the supports at the prescribed faces at the present time [N], by entry.
-    std::vector<dealii::Tensor<1, dim>> face_reaction() const { return bonds.support_forces(); }
-    GlobalIndex                         n_broken() const { return breaks.total; }
-    GlobalIndex                         n_broken_now() const { return breaks.now; }
+    std::vector<dealii::Tensor<1, dim>> face_reaction() const
+    {
+      return added.sub_steps ? added.sub_steps->support_forces() : bonds.support_forces();
+    }
+    GlobalIndex n_broken() const { return breaks.total; }
+    GlobalIndex n_broken_now() const { return breaks.now; }
 
     /// Displacement [m] at the present time, velocity [m/s] half a step before it or, after evaluate(),
     /// half a step after it.

@@ -65,19 +65,27 @@ namespace perideal
     /// @return what the motion between takes from the energy, of this rank [J]
     double take_steps(NodalVector &force);
 
+    /// Forces that supports exert on the body at prescribed values at faces [N], by entry, that belong to the
+    /// effective force of the last take_steps().
+    std::vector<dealii::Tensor<1, dim>> support_forces() const;
+
     /// Brings the bonds back to the state of compute(), for who asks for their energy. Collective.
     void settle(const NodalVector &displacement);
 
   private:
+    /// By component of the owned nodes, and behind them of the prescribed values at faces, which are nodes of
+    /// unit mass that nothing moves.
+    using Components = std::vector<double>;
+
     /// Finds the way from rest at the present place during a step of a level, of the nodes that the forces of
     /// this level change; of the highest one, of all.
     /// @param at_start whether that is where compute() was: the energy of the way counts
-    void move(const unsigned int level, const NodalVector &force, const bool at_start, NodalVector &way);
+    void move(const unsigned int level, const Components &force, const bool at_start, Components &way);
 
     /// The way as long as the force is the same.
-    double way_of(const NodalVector &force, const std::size_t k, const double step) const
+    double way_of(const Components &force, const std::size_t k, const double step) const
     {
-      return 0.5 * step * step * force.local_element(k) / mass[k / dim];
+      return 0.5 * step * step * force[k] / points[k / dim].mass;
     }
 
     /// The forces at the present place, those of the levels up to one.
@@ -95,21 +103,31 @@ namespace perideal
     BondForce<dim>                   &bonds;
     LevelledForce                    &by_level;
     std::shared_ptr<const LocalSteps> steps;
-    const std::vector<double>        &mass;
-    const std::vector<std::uint8_t>  &is_held;
-    const double                      longest;
+    /// A node or a prescribed value, and the lowest level of the forces on it.
+    struct Point
+    {
+      double       mass;
+      unsigned int level;
+    };
+    std::vector<Point>               points;
+    const std::size_t                n_nodal;
+    const std::vector<std::uint8_t> &is_held;
+    const double                     longest;
 
     /// Of the force, by level.
-    std::vector<NodalVector> parts;
+    std::vector<LevelledForce::Part> parts;
 
     /// Work space of a level: the way of its first shorter step, the force there, the parts of the force
     /// before, and where nodes were.
     struct Level
     {
-      NodalVector way, force, before, place;
+      Components way, force, before, place;
+      /// On which forces of levels up to this one act.
+      std::vector<LocalIndex> pulled;
     };
     std::vector<Level> levels;
-    NodalVector        place, whole_way;
+    NodalVector        place;
+    Components         whole_way;
     double             energy = 0;
   };
 } // namespace perideal

@@ -1,11 +1,44 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
+#include <perideal/operators/force/cell_steps.h>
 #include <perideal/operators/force/consistent_force.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace perideal
 {
+  namespace
+  {
+    /// Green's strain of a gradient in pairs, or the small one.
+    template <int dim>
+    typename SymmetricPairs<dim>::Pairs strain_of(const dealii::Tensor<2, dim> &gradient, const bool is_small)
+    {
+      using Symmetric               = SymmetricPairs<dim>;
+      dealii::Tensor<2, dim> strain = gradient;
+      if (!is_small)
+        strain += 0.5 * transpose(gradient) * gradient;
+      typename Symmetric::Pairs result;
+      for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
+        {
+          const auto [a, b] = Symmetric::axes(p);
+          result[p]         = a == b ? strain[a][a] : strain[a][b] + strain[b][a];
+        }
+      return result;
+    }
+
+    /// Adds forces on supports, of which there may be none yet.
+    template <int dim>
+    void add_support(const std::vector<dealii::Tensor<1, dim>> &more,
+                     std::vector<dealii::Tensor<1, dim>>       &support)
+    {
+      support.resize(more.size());
+      for (std::size_t e = 0; e < more.size(); ++e)
+        support[e] += more[e];
+    }
+  } // namespace
+
   template <int dim>
   ConsistentForce<dim>::ConsistentForce(const std::shared_ptr<const Families<dim>>        &families,
                                         const std::shared_ptr<const GradientMoments<dim>> &moments,
@@ -23,36 +56,21 @@ namespace perideal
   }
 
   template <int dim>
-  typename SymmetricPairs<dim>::Pairs
-  ConsistentForce<dim>::strain_of(const dealii::Tensor<2, dim> &gradient) const
+  void ConsistentForce<dim>::evaluate(const CellSubset *some) const
   {
-    using Symmetric               = SymmetricPairs<dim>;
-    dealii::Tensor<2, dim> strain = gradient;
-    if (!has_small_strain)
-      strain += 0.5 * transpose(gradient) * gradient;
-    typename Symmetric::Pairs result;
-    for (unsigned int p = 0; p < Symmetric::n_pairs; ++p)
-      {
-        const auto [a, b] = Symmetric::axes(p);
-        result[p]         = a == b ? strain[a][a] : strain[a][b] + strain[b][a];
-      }
-    return result;
-  }
-
-  template <int dim>
-  void ConsistentForce<dim>::evaluate() const
-  {
-    moments->read(last, GradientMoments<dim>::AtFaces::values);
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      bonds->set_state(i, *moments->polynomial(i), strain_of(to_tensor<dim>(moments->gradient(i))));
+    moments->read(last, GradientMoments<dim>::AtFaces::values, some);
+    visit_gradients(some, families->n_owned(), [&](const LocalIndex i) {
+      bonds->set_state(
+        i, *moments->polynomial(i), strain_of(to_tensor<dim>(moments->gradient(i)), has_small_strain));
+    });
     if (has_small_strain)
-      bonds->sum_small();
+      bonds->sum_small(some);
     else
-      bonds->sum_finite();
+      bonds->sum_finite(some);
   }
 
   template <int dim>
-  void ConsistentForce<dim>::turn_into_stress(const LocalIndex i) const
+  void ConsistentForce<dim>::turn_into_stress(const LocalIndex i, const bool counts) const
   {
     auto deformation = to_tensor<dim>(moments->gradient(i));
     if (has_small_strain)
@@ -60,7 +78,12 @@ namespace perideal
     for (unsigned int d = 0; d < dim; ++d)
       deformation[d][d] += 1.;
     const HyperelasticLaw<dim> &law = laws.plain(i);
-    if (const PointModulus<dim> *modulus = laws.modulus(i))
+    if (!counts)
+      {
+        std::fill_n(moments->gradient(i), dim, NodeRecord{});
+        std::fill_n(moments->moment(i), dim * dim, NodeRecord{});
+      }
+    else if (const PointModulus<dim> *modulus = laws.modulus(i))
       points->turn_into_stress_at_once(
         *moments, i, [&](const unsigned int, const PointTensor<dim, Lanes> &gradient) {
           PointTensor<dim, Lanes> F = gradient, P;
@@ -83,16 +106,15 @@ namespace perideal
   }
 
   template <int dim>
-  void ConsistentForce<dim>::add_force(NodalVector &force)
+  void ConsistentForce<dim>::spread(const CellSubset *some)
   {
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
-      turn_into_stress(i);
-    moments->transpose(added);
-    force -= added;
-    const auto at_faces = moments->support_forces();
-    support.resize(at_faces.size());
-    for (std::size_t e = 0; e < at_faces.size(); ++e)
-      support[e] += at_faces[e];
+    const LoopOver<LocalIndex> cells(some ? &some->own : nullptr, families->n_owned());
+    for (std::size_t n = 0; n < cells.size(); ++n)
+      turn_into_stress(cells[n], true);
+    if (some)
+      for (const LocalIndex i : some->far_ends)
+        turn_into_stress(i, false);
+    moments->transpose(added, some);
   }
 
   template <int dim>
@@ -101,9 +123,34 @@ namespace perideal
     this->move_nodes(displacement);
     last = displacement;
     evaluate();
-    force = 0.;
     support.clear();
-    add_force(force);
+    spread(nullptr);
+    add_support(moments->support_forces(), support);
+    force.equ(-1., added);
+  }
+
+  template <int dim>
+  void ConsistentForce<dim>::compute_parts(std::vector<LevelledForce::Part> &parts,
+                                           const NodalVector                &displacement,
+                                           const unsigned int                highest)
+  {
+    const auto &steps    = dynamic_cast<const CellSteps &>(*local_steps);
+    const bool  is_whole = highest + 1 == steps.n_levels();
+    this->move_nodes(displacement, nullptr, is_whole ? nullptr : &steps.moving(highest));
+    last = displacement;
+    for (unsigned int level = 0; level <= highest; ++level)
+      {
+        const CellSubset &cells = steps.cells(level);
+        evaluate(&cells);
+        spread(&cells);
+        auto &[force, support_part] = parts[level];
+        support_part.clear();
+        for (const auto &of_entry : moments->support_forces(&cells))
+          support_part.insert(support_part.end(), of_entry.begin_raw(), of_entry.end_raw());
+        for (const std::size_t i : cells.nodes)
+          for (std::size_t k = dim * i; k < dim * (i + 1); ++k)
+            force.local_element(k) = -added.local_element(k);
+      }
   }
 
   template <int dim>
@@ -116,7 +163,9 @@ namespace perideal
     bonds->set_shares(more);
     evaluate();
     const double energy = evaluated_energy();
-    add_force(force);
+    spread(nullptr);
+    add_support(moments->support_forces(), support);
+    force -= added;
     bonds->set_shares(of_nodes);
     return energy;
   }

@@ -169,9 +169,9 @@ namespace perideal
   }
 
   template <int dim, unsigned int n_sums, bool own_force_weights>
-  void FamilyForce<dim, n_sums, own_force_weights>::compute_parts(std::vector<NodalVector> &parts,
-                                                                  const NodalVector        &displacement,
-                                                                  const unsigned int        highest)
+  void FamilyForce<dim, n_sums, own_force_weights>::compute_parts(std::vector<LevelledForce::Part> &parts,
+                                                                  const NodalVector &displacement,
+                                                                  const unsigned int highest)
   {
     const bool is_whole = highest + 1 == local_steps->n_levels();
     this->move_nodes(displacement, nullptr, is_whole ? nullptr : &local_steps->moving(highest));
@@ -193,7 +193,7 @@ namespace perideal
         sum_forces<Failing::not_at_all>({level, level});
         for (const LocalIndex i : nodes)
           for (int d = 0; d < dim; ++d)
-            parts[level].local_element(dim * i + d) = forces[i].value[d];
+            parts[level].force.local_element(dim * i + d) = forces[i].value[d];
       }
   }
 
@@ -220,7 +220,7 @@ namespace perideal
 #define PERIDEAL_INSTANTIATE_SHAPE(dim, n_sums, own_force_weights)                                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute(NodalVector &, const NodalVector &);    \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_parts(                                  \
-    std::vector<NodalVector> &, const NodalVector &, const unsigned int);                                    \
+    std::vector<LevelledForce::Part> &, const NodalVector &, const unsigned int);                            \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \
     FamilyForce<dim, n_sums, own_force_weights>::Failing::at_once>(NodalVector &);                           \
   template void FamilyForce<dim, n_sums, own_force_weights>::compute_forces<                                 \

@@ -19,31 +19,29 @@ namespace perideal
         for (BondIndex slot = bonds.row[i]; slot < bonds.row[i + 1]; ++slot)
           visit(i, bonds.neighbour[slot]);
     }
-
-    /// Returns the lowest level of each local node and its neighbours. Collective.
-    /// @param levels of the owned nodes
-    template <int dim>
-    std::vector<unsigned int> lowest_of_neighbours(const Families<dim>             &families,
-                                                   const BondList                  &bonds,
-                                                   const std::vector<unsigned int> &levels)
-    {
-      NodalVector of_nodes(families.make_partitioner(1)), result(of_nodes);
-      std::copy_n(levels.begin(), families.n_owned(), of_nodes.begin());
-      of_nodes.update_ghost_values();
-      std::copy_n(levels.begin(), families.n_owned(), result.begin());
-      visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
-        result.local_element(i) = std::min(result.local_element(i), of_nodes.local_element(j));
-        // A bond that the partition cuts stands on both ranks.
-        if (j < families.n_owned())
-          result.local_element(j) = std::min(result.local_element(j), of_nodes.local_element(i));
-      });
-      result.update_ghost_values();
-      std::vector<unsigned int> lowest(families.n_local());
-      for (LocalIndex i = 0; i < lowest.size(); ++i)
-        lowest[i] = static_cast<unsigned int>(result.local_element(i));
-      return lowest;
-    }
   } // namespace
+
+  template <int dim>
+  std::vector<unsigned int> lowest_of_neighbours(const Families<dim>             &families,
+                                                 const BondList                  &bonds,
+                                                 const std::vector<unsigned int> &levels)
+  {
+    NodalVector of_nodes(families.make_partitioner(1)), result(of_nodes);
+    std::copy_n(levels.begin(), families.n_owned(), of_nodes.begin());
+    of_nodes.update_ghost_values();
+    std::copy_n(levels.begin(), families.n_owned(), result.begin());
+    visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
+      result.local_element(i) = std::min(result.local_element(i), of_nodes.local_element(j));
+      // A bond that the partition cuts stands on both ranks.
+      if (j < families.n_owned())
+        result.local_element(j) = std::min(result.local_element(j), of_nodes.local_element(i));
+    });
+    result.update_ghost_values();
+    std::vector<unsigned int> lowest(families.n_local());
+    for (LocalIndex i = 0; i < lowest.size(); ++i)
+      lowest[i] = static_cast<unsigned int>(result.local_element(i));
+    return lowest;
+  }
 
   template <int dim>
   LocalSteps::LocalSteps(const Families<dim>             &families,
@@ -52,46 +50,61 @@ namespace perideal
                          const unsigned int               n_levels)
     : nodes(lowest_of_neighbours(families, bonds, own))
     , blocks((families.n_owned() + RestRegions::block_size - 1) / RestRegions::block_size, n_levels - 1)
-    , counts(n_levels, 0)
   {
     const std::vector<unsigned int> of_families = lowest_of_neighbours(families, bonds, nodes);
-    nodes.resize(families.n_owned());
+    const LocalIndex                n_owned     = families.n_owned();
+    nodes.resize(n_owned);
     const auto add = [&](const LocalIndex row, const LocalIndex family) {
       unsigned int &level = blocks[row / RestRegions::block_size];
       level               = std::min(level, of_families[family]);
     };
-    for (LocalIndex i = 0; i < families.n_owned(); ++i)
-      {
-        add(i, i);
-        ++counts[of_families[i]];
-      }
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      add(i, i);
     visit_ends(bonds, add);
-    make_lists(bonds, of_families);
-    dealii::Utilities::MPI::sum(counts, families.communicator, counts);
-    lowest =
-      std::find_if(counts.begin(), counts.end(), [](const GlobalIndex n) { return n > 0; }) - counts.begin();
+
+    std::vector<std::vector<LocalIndex>> pulled(n_levels);
+    for (unsigned int level = 0; level < n_levels; ++level)
+      {
+        std::vector<bool> is_pulled(families.n_local(), false);
+        visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
+          if (blocks[i / RestRegions::block_size] == level)
+            is_pulled[i] = is_pulled[j] = true;
+        });
+        for (LocalIndex i = 0; i < n_owned; ++i)
+          if (is_pulled[i])
+            pulled[level].push_back(i);
+      }
+    make_lists(of_families, pulled, families.communicator);
   }
 
-  void LocalSteps::make_lists(const BondList &bonds, const std::vector<unsigned int> &of_families)
+  LocalSteps::LocalSteps(const std::vector<unsigned int>            &nodes,
+                         const std::vector<unsigned int>            &of_cells,
+                         const std::vector<std::vector<LocalIndex>> &pulled,
+                         const std::vector<unsigned int>            &supports,
+                         MPI_Comm                                    communicator)
+    : nodes(nodes)
+    , supports(supports)
   {
-    const auto        n_owned = nodes.size();
-    std::vector<bool> is_pulled(n_owned);
-    forces.assign(n_owned, n_levels() - 1);
-    lists.resize(n_levels());
-    for (unsigned int level = 0; level < n_levels(); ++level)
+    make_lists(of_cells, pulled, communicator);
+  }
+
+  void LocalSteps::make_lists(const std::vector<unsigned int>            &of_families,
+                              const std::vector<std::vector<LocalIndex>> &pulled,
+                              MPI_Comm                                    communicator)
+  {
+    const LocalIndex   n_owned  = nodes.size();
+    const unsigned int n_levels = pulled.size();
+    forces.assign(n_owned, n_levels - 1);
+    for (unsigned int level = n_levels; level-- > 0;)
+      for (const LocalIndex i : pulled[level])
+        forces[i] = level;
+    lists.resize(n_levels);
+    counts.assign(n_levels, 0);
+    for (LocalIndex i = 0; i < n_owned; ++i)
+      ++counts[of_families[i]];
+    for (unsigned int level = 0; level < n_levels; ++level)
       {
-        std::fill(is_pulled.begin(), is_pulled.end(), false);
-        const auto add = [&](const LocalIndex row, const LocalIndex node) {
-          if (blocks[row / RestRegions::block_size] == level && node < n_owned)
-            {
-              is_pulled[node] = true;
-              forces[node]    = std::min(forces[node], level);
-            }
-        };
-        visit_ends(bonds, [&](const LocalIndex i, const LocalIndex j) {
-          add(i, i);
-          add(i, j);
-        });
+        lists[level].pulled_alone = pulled[level];
         for (LocalIndex i = 0; i < n_owned; ++i)
           {
             if (nodes[i] <= level)
@@ -100,10 +113,11 @@ namespace perideal
               lists[level].families.push_back(i);
             if (forces[i] <= level)
               lists[level].pulled.push_back(i);
-            if (is_pulled[i])
-              lists[level].pulled_alone.push_back(i);
           }
       }
+    dealii::Utilities::MPI::sum(counts, communicator, counts);
+    lowest =
+      std::find_if(counts.begin(), counts.end(), [](const GlobalIndex n) { return n > 0; }) - counts.begin();
   }
 
   bool LocalSteps::any_up_to(const unsigned int level) const
@@ -140,4 +154,8 @@ namespace perideal
                                   const BondList &,
                                   const std::vector<unsigned int> &,
                                   const unsigned int);
+  template std::vector<unsigned int>
+  lowest_of_neighbours(const Families<2> &, const BondList &, const std::vector<unsigned int> &);
+  template std::vector<unsigned int>
+  lowest_of_neighbours(const Families<3> &, const BondList &, const std::vector<unsigned int> &);
 } // namespace perideal

@@ -13,6 +13,7 @@ perideal_room(operators/force
     stress_onset.cc
     zoned_force.cc
   LOOPS
+    cell_steps.cc
     consistent_force.cc
     contact_force.cc
     contact_lists.cc

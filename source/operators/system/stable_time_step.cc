@@ -27,14 +27,37 @@ namespace perideal
     return 2. / std::sqrt(estimate_largest_eigenvalue(system, inverse_mass, 10, moves));
   }
 
+  namespace
+  {
+    /// How many times more steps are worth taking for one level more.
+    constexpr double most_shortening = 1.3;
+
+    /// Returns how many times shorter steps would have to be for some more nodes to be of a level, or 1 where
+    /// that takes more time. Collective.
+    /// @param levels of owned nodes, the highest of them that or the one below @param n_more those of all
+    /// ranks @param excess of their steps now
+    double worthwhile_shortening(const std::vector<unsigned int> &levels,
+                                 const unsigned int               level,
+                                 const double                     n_more,
+                                 const double                     excess,
+                                 MPI_Comm                         communicator)
+    {
+      double steps = 0;
+      for (const unsigned int own : levels)
+        steps += std::ldexp(1., -static_cast<int>(own));
+      steps             = dealii::Utilities::MPI::sum(steps, communicator);
+      const double then = excess * (steps - std::ldexp(n_more, -static_cast<int>(level)));
+      return excess < most_shortening && then < steps ? excess : 1.;
+    }
+  } // namespace
+
   template <int dim>
-  std::vector<unsigned int>
-  local_step_levels(const ConstrainedOperator<dim>                                &system,
-                    const std::function<double(const dealii::types::material_id)> &density,
-                    const std::function<double(const std::vector<bool> &)>        &stable_of,
-                    const double                                                   step,
-                    const double                                                   safety,
-                    const unsigned int                                             n_levels)
+  LocalStepLevels local_step_levels(const ConstrainedOperator<dim>                                &system,
+                                    const std::function<double(const dealii::types::material_id)> &density,
+                                    const std::function<double(const std::vector<bool> &)>        &stable_of,
+                                    const double                                                   step,
+                                    const double                                                   safety,
+                                    const unsigned int                                             n_levels)
   {
     // Estimates from Lanczos steps differ by some per cent.
     constexpr double      tolerance = 1.05;
@@ -47,34 +70,47 @@ namespace perideal
         slowness[i] = std::sqrt(density(nodes.material[i]) * nodes.volume[i] / trace(blocks[i]));
         fastest     = std::min(fastest, slowness[i]);
       }
-    fastest                               = dealii::Utilities::MPI::min(fastest, system.communicator());
-    const double              safe_of_all = safety * stable_of({});
-    std::vector<unsigned int> result(system.n_nodes(), 0);
+    fastest                                = dealii::Utilities::MPI::min(fastest, system.communicator());
+    const double               safe_of_all = safety * stable_of({});
+    LocalStepLevels            levels{std::vector<unsigned int>(system.n_nodes(), 0)};
+    std::vector<unsigned int> &result = levels.of_nodes;
     for (unsigned int level = 1; level < n_levels; ++level)
       {
         const double ratio = std::ldexp(1., level);
         // Of irregular cells the diagonal says too little: the bar is raised until the step is stable.
         std::vector<bool> is_slow(result.size());
-        double            bar = fastest * ratio * step / (tolerance * safe_of_all);
+        double            bar    = fastest * ratio * step / (tolerance * safe_of_all);
+        double            n_left = 0, n_wanted = 0, excess_of_these = 0;
         for (bool is_stable = false; !is_stable;)
           {
-            unsigned int any = 0;
+            double n = 0;
             for (LocalIndex i = 0; i < result.size(); ++i)
               {
                 is_slow[i] = result[i] == level - 1 && slowness[i] >= bar;
-                any        = is_slow[i] ? 1 : any;
+                n += is_slow[i] ? 1. : 0.;
               }
-            if (dealii::Utilities::MPI::max(any, system.communicator()) == 0)
-              return result;
+            n_left = dealii::Utilities::MPI::sum(n, system.communicator());
+            if (n_left == 0)
+              break;
             const double excess = ratio * step / (safety * stable_of(is_slow));
             is_stable           = excess <= tolerance;
+            if (n_wanted == 0)
+              {
+                n_wanted        = n_left;
+                excess_of_these = excess;
+              }
             bar *= std::max(1.02, excess);
           }
         for (LocalIndex i = 0; i < result.size(); ++i)
           if (is_slow[i])
             result[i] = level;
+        if (levels.shortening == 1. && n_left < n_wanted)
+          levels.shortening = worthwhile_shortening(
+            result, level, n_wanted - n_left, excess_of_these / (0.98 * tolerance), system.communicator());
+        if (n_left == 0)
+          break;
       }
-    return result;
+    return levels;
   }
 
   PERIDEAL_INSTANTIATE(stable_time_step)

@@ -104,18 +104,27 @@ namespace perideal
 
   template <int dim>
   template <typename ConsistentBonds<dim>::Kinematics kinematics>
-  void ConsistentBonds<dim>::sum(const Linearisation *at)
+  void ConsistentBonds<dim>::sum(const Linearisation *at, const CellSubset *some)
   {
     using Parts                    = std::array<Lanes, n_parts>;
     constexpr unsigned int n_lanes = BondList::n_lanes;
     const NodeRecord      *x = position.data(), *state = work.states.data();
     NodeRecord            *f = work.forces.data(), *stress = work.stresses.data();
     const NodeRecord      *deformed = kinematics == Kinematics::change ? at->position.data() : nullptr;
-    std::fill(work.forces.begin(), work.forces.end(), NodeRecord{});
-    std::fill(work.stresses.begin(), work.stresses.end(), NodeRecord{});
+    const auto             clear    = [&](const LocalIndex first, const LocalIndex last) {
+      std::fill(f + first, f + last, NodeRecord{});
+      std::fill(stress + n_parts * first, stress + n_parts * last, NodeRecord{});
+    };
+    if (some)
+      for (const auto *cells : {&some->own, &some->far_ends})
+        for (const LocalIndex i : *cells)
+          clear(i, i + 1);
+    clear(some ? families->n_owned() : 0, families->n_local());
 
-    for (LocalIndex i = 0; i < families->n_owned(); ++i)
+    const LoopOver<LocalIndex> rows(some ? &some->own : nullptr, families->n_owned());
+    for (std::size_t n = 0; n < rows.size(); ++n)
       {
+        const LocalIndex  i    = rows[n];
         const NodeRecord *near = state + n_records * i;
         const Lanes       xi = lanes(x[i]), ui    = lanes(near[0]);
         Parts             near_strain, own_stress = {};
@@ -171,17 +180,17 @@ namespace perideal
   }
 
   template <int dim>
-  void ConsistentBonds<dim>::sum_small()
+  void ConsistentBonds<dim>::sum_small(const CellSubset *some)
   {
     update_ghosts();
-    sum<Kinematics::small>(nullptr);
+    sum<Kinematics::small>(nullptr, some);
   }
 
   template <int dim>
-  void ConsistentBonds<dim>::sum_finite()
+  void ConsistentBonds<dim>::sum_finite(const CellSubset *some)
   {
     update_ghosts();
-    sum<Kinematics::finite>(nullptr);
+    sum<Kinematics::finite>(nullptr, some);
   }
 
   template <int dim>
@@ -203,7 +212,7 @@ namespace perideal
   void ConsistentBonds<dim>::sum_changes(const Linearisation &at)
   {
     update_ghosts();
-    sum<Kinematics::change>(&at);
+    sum<Kinematics::change>(&at, nullptr);
   }
 
   template <int dim>

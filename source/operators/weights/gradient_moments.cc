@@ -131,7 +131,7 @@ namespace perideal
   }
 
   template <int dim>
-  std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::support_forces() const
+  std::vector<dealii::Tensor<1, dim>> GradientMoments<dim>::support_forces(const CellSubset *some) const
   {
     // dU/du at the points of a face, of which V G_l and H_kl have the sums n_l u and n_l (x - x_i)_k u.
     const auto                         &points  = face_moments->boundary_points();
@@ -143,8 +143,9 @@ namespace perideal
         const LocalIndex          i      = point.node;
         const auto                arm    = point.point - polynomials->centroids()[i];
         const bool                slides = entry.sliding_condition != FaceValues<dim>::free;
+        const bool                counts = !some || some->has_gradient(i);
         dealii::Tensor<1, dim>    force;
-        for (int a = 0; a < dim; ++a)
+        for (int a = 0; a < dim && counts; ++a)
           if (slides || entry.condition[a] != FaceValues<dim>::free)
             for (int l = 0; l < dim; ++l)
               {
@@ -181,9 +182,9 @@ namespace perideal
                 moment(i)[dim * k + l].value[a] = k == l ? on_trace : 0.;
             }
         }
-    spread_to_faces();
+    spread_to_faces(nullptr);
     NodalVector sum(force);
-    spread_to_nodes(sum);
+    spread_to_nodes(sum, nullptr);
     for (std::size_t r = 0; r < dim * static_cast<std::size_t>(n_owned_cells); ++r)
       force.local_element(r) += sum.local_element(r);
     return support_forces();

@@ -3,6 +3,7 @@
 #include <perideal/base/record_exchange.h>
 #include <perideal/operators/weights/gradient_moments.h>
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -125,10 +126,22 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientMoments<dim>::sum_over_faces(const AtFaces at_faces) const
+  void GradientMoments<dim>::sum_over_faces(const AtFaces at_faces, const CellSubset *some) const
   {
-    std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
-    std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
+    const auto clear = [&](const std::vector<LocalIndex> &cells) {
+      for (const LocalIndex i : cells)
+        {
+          std::fill_n(gradient(i), dim, NodeRecord{});
+          std::fill_n(moment(i), dim * dim, NodeRecord{});
+        }
+    };
+    if (some)
+      clear(some->polynomials);
+    else
+      {
+        std::fill(work.gradient.begin(), work.gradient.end(), NodeRecord{});
+        std::fill(work.moment.begin(), work.moment.end(), NodeRecord{});
+      }
     const auto add =
       [&](const LocalIndex i, const Shape &shape, const unsigned int side, const FaceSums<dim> &sums) {
         if (i >= n_owned_cells)
@@ -143,11 +156,15 @@ namespace perideal
               lanes(h[dim * k + l]) += sign * sums.moment[k][l] + shape.offset[side][k] * value;
           }
       };
-    const auto       &faces         = face_moments->faces();
-    const std::size_t n_inner_faces = face_moments->n_inner_faces();
-    auto              next          = held.begin();
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    const auto                 &faces         = face_moments->faces();
+    const std::size_t           n_inner_faces = face_moments->n_inner_faces();
+    auto                        next          = held.begin();
+    const LoopOver<std::size_t> loop(some ? &some->faces : nullptr, faces.size());
+    for (std::size_t n = 0; n < loop.size(); ++n)
       {
+        const std::size_t f = loop[n];
+        while (next != held.end() && next->first < f)
+          ++next;
         if (f + n_ahead < n_inner_faces)
           prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
         const Shape &shape    = face_moments->shape_of(faces[f]);
@@ -190,17 +207,22 @@ namespace perideal
                       sums.moment[k][l] += ((point.point[k] - centre[k]) * point.area[l]) * value;
                   }
               }
-            ++next;
           }
         for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
           add(cell[side], shape, side, sums);
       }
+    if (some)
+      clear(some->without_gradient);
   }
 
   template <int dim>
-  void GradientMoments<dim>::spread_to_faces() const
+  void GradientMoments<dim>::spread_to_faces(const CellSubset *some) const
   {
-    std::fill(work.polynomial.begin(), work.polynomial.end(), NodeRecord{});
+    NodeRecord *const acting = work.polynomial.data();
+    if (some)
+      for (const LocalIndex i : some->polynomials)
+        std::fill_n(acting + n_coefficients * i, n_coefficients, NodeRecord{});
+    std::fill(acting + (some ? n_coefficients * n_owned_cells : 0), work.polynomial.end(), NodeRecord{});
     const auto add =
       [&](const LocalIndex i, const Shape &shape, const unsigned int side, FaceSums<dim> &sums) {
         if (i >= n_owned_cells)
@@ -218,11 +240,15 @@ namespace perideal
             sums.gradient[l] += sign * pull;
           }
       };
-    const auto       &faces         = face_moments->faces();
-    const std::size_t n_inner_faces = face_moments->n_inner_faces();
-    auto              next          = held.begin();
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    const auto                 &faces         = face_moments->faces();
+    const std::size_t           n_inner_faces = face_moments->n_inner_faces();
+    auto                        next          = held.begin();
+    const LoopOver<std::size_t> loop(some ? &some->faces : nullptr, faces.size());
+    for (std::size_t n = 0; n < loop.size(); ++n)
       {
+        const std::size_t f = loop[n];
+        while (next != held.end() && next->first < f)
+          ++next;
         if (f + n_ahead < n_inner_faces)
           prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
         const Shape       &shape   = face_moments->shape_of(faces[f]);
@@ -248,7 +274,6 @@ namespace perideal
                 for (unsigned int k = 0; k < dim; ++k)
                   sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
               }
-            ++next;
           }
         integrate_back<dim>(face_moments->moments_of(shape), shape.is_plane, sums, polynomial);
         for (unsigned int side = 0; side < n_sides; ++side)

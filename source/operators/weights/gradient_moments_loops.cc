@@ -21,30 +21,35 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  void GradientMoments<dim>::read_polynomials(const NodalVector &displacement) const
+  void GradientMoments<dim>::read_polynomials(const NodalVector &displacement, const CellSubset *some) const
   {
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+    const LoopOver<LocalIndex> nodes(some ? &some->nodes : nullptr, n_owned_cells);
+    for (std::size_t n = 0; n < nodes.size(); ++n)
       for (int d = 0; d < dim; ++d)
-        work.displacement[i].value[d] = displacement.local_element(dim * i + d);
+        work.displacement[nodes[n]].value[d] = displacement.local_element(dim * nodes[n] + d);
     update_ghosts(*of_displacements, work.displacement, work.temporary);
-    constexpr unsigned int n_terms = Monomials<dim>::n_terms;
-    const NodeRecord      *u       = work.displacement.data();
-    const auto            &first = polynomials->first(), &columns = polynomials->columns();
-    const auto            &closure = polynomials->closure();
-    auto                   closed  = closure.cells().begin();
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+    constexpr unsigned int     n_terms = Monomials<dim>::n_terms;
+    const NodeRecord          *u       = work.displacement.data();
+    const auto                &first = polynomials->first(), &columns = polynomials->columns();
+    const auto                &closure = polynomials->closure();
+    auto                       closed  = closure.cells().begin();
+    const LoopOver<LocalIndex> cells(some ? &some->polynomials : nullptr, n_owned_cells);
+    for (std::size_t n = 0; n < cells.size(); ++n)
       {
-        Lanes         c[n_terms] = {};
-        const Lanes   own        = lanes(u[i]);
-        const double *row        = polynomials->coefficients(i)->data();
+        const LocalIndex i          = cells[n];
+        Lanes            c[n_terms] = {};
+        const Lanes      own        = lanes(u[i]);
+        const double    *row        = polynomials->coefficients(i)->data();
         for (BondIndex k = first[i]; k < first[i + 1]; ++k, row += n_terms)
           {
             const Lanes difference = lanes(u[columns[k]]) - own;
             for (unsigned int t = 0; t < n_terms; ++t)
               c[t] += row[t] * difference;
           }
+        while (closed != closure.cells().end() && *closed < i)
+          ++closed;
         if (closed != closure.cells().end() && *closed == i)
-          closure.close(closed++ - closure.cells().begin(), c);
+          closure.close(closed - closure.cells().begin(), c);
         Lanes      value      = own;
         const auto of_unknown = polynomials->at_unknown(i);
         for (unsigned int p = 0; p < of_unknown.size(); ++p)
@@ -57,28 +62,29 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientMoments<dim>::read(const NodalVector &displacement, const AtFaces at_faces) const
+  void GradientMoments<dim>::read(const NodalVector &displacement,
+                                  const AtFaces      at_faces,
+                                  const CellSubset  *some) const
   {
-    read_polynomials(displacement);
+    read_polynomials(displacement, some);
     update_ghosts(*of_polynomials, work.polynomial, work.temporary);
-    sum_over_faces(at_faces);
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      {
-        const double volume = polynomials->volumes()[i];
-        NodeRecord  *g = gradient(i), *h = moment(i);
-        const auto   means = polynomials->means(i);
-        // The trace is that of the polynomial, int (x - x_i).grad p.
-        Lanes change = {};
-        for (unsigned int p = 0; p < means.size(); ++p)
-          change += (2. * volume * means[p]) * lanes(work.polynomial[n_coefficients * i + 1 + dim + p]);
-        for (unsigned int l = 0; l < dim; ++l)
-          {
-            lanes(g[l]) *= 1. / volume;
-            change -= lanes(h[(dim + 1) * l]);
-          }
-        for (unsigned int l = 0; l < dim; ++l)
-          lanes(h[(dim + 1) * l]) += (1. / dim) * change;
-      }
+    sum_over_faces(at_faces, some);
+    visit_gradients(some, n_owned_cells, [&](const LocalIndex i) {
+      const double volume = polynomials->volumes()[i];
+      NodeRecord  *g = gradient(i), *h = moment(i);
+      const auto   means = polynomials->means(i);
+      // The trace is that of the polynomial, int (x - x_i).grad p.
+      Lanes change = {};
+      for (unsigned int p = 0; p < means.size(); ++p)
+        change += (2. * volume * means[p]) * lanes(work.polynomial[n_coefficients * i + 1 + dim + p]);
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          lanes(g[l]) *= 1. / volume;
+          change -= lanes(h[(dim + 1) * l]);
+        }
+      for (unsigned int l = 0; l < dim; ++l)
+        lanes(h[(dim + 1) * l]) += (1. / dim) * change;
+    });
   }
 
   template <int dim>
@@ -112,20 +118,26 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientMoments<dim>::spread_to_nodes(NodalVector &force) const
+  void GradientMoments<dim>::spread_to_nodes(NodalVector &force, const CellSubset *some) const
   {
-    const NodeRecord *f = work.displacement.data();
-    std::fill(work.displacement.begin(), work.displacement.end(), NodeRecord{});
-    std::size_t n_closed = 0;
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+    NodeRecord                *f = work.displacement.data();
+    const LoopOver<LocalIndex> nodes(some ? &some->nodes : nullptr, n_owned_cells);
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      f[nodes[n]] = NodeRecord{};
+    std::fill(f + n_owned_cells, work.displacement.end(), NodeRecord{});
+    const auto                &closed   = polynomials->closure().cells();
+    std::size_t                n_closed = 0;
+    const LoopOver<LocalIndex> cells(some ? &some->polynomials : nullptr, n_owned_cells);
+    for (std::size_t n = 0; n < cells.size(); ++n)
       {
-        spread_cell(i, n_closed);
-        n_closed += is_closed(*polynomials, i, n_closed) ? 1 : 0;
+        while (n_closed < closed.size() && closed[n_closed] < cells[n])
+          ++n_closed;
+        spread_cell(cells[n], n_closed);
       }
     add_to_owners(*of_displacements, work.displacement, work.temporary);
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
+    for (std::size_t n = 0; n < nodes.size(); ++n)
       for (int d = 0; d < dim; ++d)
-        force.local_element(dim * i + d) = f[i].value[d];
+        force.local_element(dim * nodes[n] + d) = f[nodes[n]].value[d];
   }
 
   template <int dim>
@@ -152,24 +164,26 @@ namespace perideal
   }
 
   template <int dim>
-  void GradientMoments<dim>::transpose(NodalVector &force) const
+  void GradientMoments<dim>::transpose(NodalVector &force, const CellSubset *some) const
   {
-    for (LocalIndex i = 0; i < n_owned_cells; ++i)
-      {
-        const double volume = polynomials->volumes()[i];
-        NodeRecord  *g = gradient(i), *h = moment(i);
-        Lanes        trace = {};
-        for (unsigned int l = 0; l < dim; ++l)
-          {
-            lanes(g[l]) *= 1. / volume;
-            trace += (1. / dim) * lanes(h[(dim + 1) * l]);
-          }
-        for (unsigned int l = 0; l < dim; ++l)
-          lanes(h[(dim + 1) * l]) -= trace;
-        lanes(work.trace_force[i]) = trace;
-      }
-    spread_to_faces();
-    spread_to_nodes(force);
+    if (some)
+      for (const LocalIndex i : some->without_gradient)
+        work.value_force[i] = work.trace_force[i] = NodeRecord{};
+    visit_gradients(some, n_owned_cells, [&](const LocalIndex i) {
+      const double volume = polynomials->volumes()[i];
+      NodeRecord  *g = gradient(i), *h = moment(i);
+      Lanes        trace = {};
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          lanes(g[l]) *= 1. / volume;
+          trace += (1. / dim) * lanes(h[(dim + 1) * l]);
+        }
+      for (unsigned int l = 0; l < dim; ++l)
+        lanes(h[(dim + 1) * l]) -= trace;
+      lanes(work.trace_force[i]) = trace;
+    });
+    spread_to_faces(some);
+    spread_to_nodes(force, some);
   }
 
   PERIDEAL_INSTANTIATE_CLASS(GradientMoments)

@@ -6,6 +6,7 @@ perideal_room(operators/weights
     calibrated_stretches.cc
     calibration_memo.cc
     canonical_family.cc
+    cell_reach.cc
     equal_families.cc
   LOOPS
     consistent_bonds.cc

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/materials/models.h>
-#include <perideal/operators/force/bond_force.h>
+#include <perideal/operators/force/cell_steps.h>
+#include <perideal/operators/force/consistent_force.h>
 #include <perideal/operators/force/levelled_force.h>
 
 #include "bodies.h"
+#include "moments.h"
 #include "testing.h"
 
 #include <cmath>
@@ -17,7 +19,7 @@ namespace
   struct SteppedBody
   {
     SteppedBody(const Mesh<dim> &mesh, const std::string &model, const std::string &form)
-      : body(mesh)
+      : body(mesh, form == "consistent" ? 2.015 : 3.01)
     {
       ModelParameters parameters;
       parameters.model = model;
@@ -25,10 +27,27 @@ namespace
       parameters.resolve(dim);
       const ElasticConstants own = parameters.constants_of_model(
         {1., 0.3, dim == 3 ? PlaneAssumption::solid : PlaneAssumption::plane_strain});
-      weights = weigh_bonds<dim>(body.families,
-                                 *create_model<dim>(parameters, 1.),
-                                 [&](const dealii::types::material_id) { return ElasticSolid<dim>(own); });
-      bonds   = create_bond_force<dim>(*weights);
+      const ElasticSolid<dim> solid(own);
+      const auto              solid_of = [solid](const dealii::types::material_id) { return solid; };
+      if (parameters.is_consistent())
+        {
+          moments = test::make_moments(mesh, body.nodes, std::make_shared<const FaceValues<dim>>());
+          LawsByMaterial<dim> laws;
+          laws[0] = create_law<dim>(LawChoice("Saint Venant-Kirchhoff"), solid);
+          bonds   = std::make_unique<ConsistentForce<dim>>(
+            body.families,
+            moments,
+            std::make_shared<ConsistentBonds<dim>>(body.families,
+                                                   moments->cell_polynomials(),
+                                                   create_consistent<dim>(parameters, 2.015),
+                                                   solid_of),
+            laws);
+        }
+      else
+        {
+          weights = weigh_bonds<dim>(body.families, *create_model<dim>(parameters, 1.), solid_of);
+          bonds   = create_bond_force<dim>(*weights);
+        }
       bonds->initialize(displacement);
       std::vector<unsigned int> own_level;
       for (LocalIndex i = 0; i < body.nodes.size(); ++i)
@@ -39,11 +58,14 @@ namespace
             displacement.local_element(dim * i + d) =
               0.1 * x[d] + 0.05 * std::sin(3. * x[(d + 1) % dim]) + 0.01 * test::scatter(x, d);
         }
-      steps = std::make_shared<const LocalSteps>(*body.families, bonds->bond_list(), own_level, 3);
+      if (moments)
+        steps = std::make_shared<const CellSteps>(*moments, *body.families, bonds->bond_list(), own_level, 3);
+      else
+        steps = std::make_shared<const LocalSteps>(*body.families, bonds->bond_list(), own_level, 3);
       by_level().take_local_steps(steps);
       parts.resize(3);
-      for (NodalVector &part : parts)
-        bonds->initialize(part);
+      for (LevelledForce::Part &part : parts)
+        bonds->initialize(part.force);
     }
 
     LevelledForce &by_level() { return dynamic_cast<LevelledForce &>(*bonds); }
@@ -58,9 +80,9 @@ namespace
     NodalVector sum_of_parts(const unsigned int highest)
     {
       by_level().compute_parts(parts, displacement, highest);
-      NodalVector result(parts[0]);
+      NodalVector result(parts[0].force);
       for (unsigned int level = 1; level <= highest; ++level)
-        result += parts[level];
+        result += parts[level].force;
       return result;
     }
 
@@ -72,18 +94,20 @@ namespace
           displacement.local_element(dim * i + d) += 0.01 * test::scatter(body.nodes.position[i], d + 7);
     }
 
-    test::Body<dim>                   body;
-    std::shared_ptr<BondWeights<dim>> weights;
-    std::unique_ptr<BondForce<dim>>   bonds;
-    std::shared_ptr<const LocalSteps> steps;
-    std::vector<NodalVector>          parts;
-    NodalVector                       displacement;
+    test::Body<dim>                             body;
+    std::shared_ptr<const GradientMoments<dim>> moments;
+    std::shared_ptr<BondWeights<dim>>           weights;
+    std::unique_ptr<BondForce<dim>>             bonds;
+    std::shared_ptr<const LocalSteps>           steps;
+    std::vector<LevelledForce::Part>            parts;
+    NodalVector                                 displacement;
   };
 
   const std::vector<std::pair<std::string, std::string>> models = {{"bond based", "energy"},
                                                                    {"ordinary", "energy"},
                                                                    {"extended ordinary", "paper"},
-                                                                   {"extended ordinary", "energy"}};
+                                                                   {"extended ordinary", "energy"},
+                                                                   {"extended ordinary", "consistent"}};
 
   /// Parts of all levels are the force; those of some levels change as it does where only their nodes move.
   template <int dim>
@@ -102,9 +126,9 @@ namespace
             NodalVector change = body.force();
             // Seen beside what all levels together have left.
             body.sum_of_parts(2);
-            NodalVector change_of_parts(body.parts[0]);
+            NodalVector change_of_parts(body.parts[0].force);
             for (unsigned int level = 1; level <= highest; ++level)
-              change_of_parts += body.parts[level];
+              change_of_parts += body.parts[level].force;
             body.move(highest);
             change_of_parts -= body.sum_of_parts(highest);
             change -= body.force();
@@ -141,4 +165,24 @@ TEST(LocalSteps, LevelsReachOverAFamily)
   EXPECT_EQ(body.steps->n_families(), expected);
   EXPECT_TRUE(body.steps->any_up_to(0));
   EXPECT_NEAR(body.steps->share_of_cell_steps(), (90 + 30 + 12.5) / 200., 1e-14);
+}
+
+/// Cells of the consistent form are of the lowest level of the nodes that they and the far ends of the bonds
+/// in their rows are made of: two columns for the bonds of nodes, then one for polynomials, one across faces,
+/// and up to two for bonds, which stand in the row of one of their ends.
+TEST(LocalSteps, LevelsReachOverStencils)
+{
+  const auto     mesh = test::make_box<2>({40, 5}, {1., 0.125}, 0.);
+  SteppedBody<2> body(*mesh, "extended ordinary", "consistent");
+  for (LocalIndex i = 0; i < body.body.nodes.size(); ++i)
+    {
+      const double x = body.body.nodes.position[i][0];
+      EXPECT_EQ(body.steps->level_of(i), x < 0.35 ? 0u : x < 0.65 ? 1u : 2u) << x;
+    }
+  const std::vector<GlobalIndex> n = body.steps->n_families();
+  EXPECT_GE(n[0], 16u * 5u);
+  EXPECT_LE(n[0], 18u * 5u);
+  EXPECT_GE(n[0] + n[1], 28u * 5u);
+  EXPECT_LE(n[0] + n[1], 30u * 5u);
+  EXPECT_EQ(n[0] + n[1] + n[2], 40u * 5u);
 }

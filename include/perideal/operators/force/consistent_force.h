@@ -4,6 +4,7 @@
 
 #include <perideal/operators/force/breaking_bonds.h>
 #include <perideal/operators/force/continuum_force.h>
+#include <perideal/operators/force/levelled_force.h>
 #include <perideal/operators/weights/cell_points.h>
 #include <perideal/operators/weights/consistent_bonds.h>
 #include <perideal/operators/weights/gradient_moments.h>
@@ -26,7 +27,7 @@ namespace perideal
    * Nothing breaks: cracks are where faces and bonds were opened for them from the beginning.
    */
   template <int dim>
-  class ConsistentForce : public BreakingBonds<dim>, public ContinuumForce<dim>
+  class ConsistentForce : public BreakingBonds<dim>, public ContinuumForce<dim>, public LevelledForce
   {
   public:
     /// @param laws by material id; every material of the nodes is listed
@@ -47,7 +48,13 @@ namespace perideal
       AssertThrow(false, dealii::ExcNotImplemented());
     }
 
-    void                compute(NodalVector &force, const NodalVector &displacement) override;
+    void compute(NodalVector &force, const NodalVector &displacement) override;
+
+    /// By CellSteps. Parts leave support_forces() as they are.
+    void compute_parts(std::vector<LevelledForce::Part> &parts,
+                       const NodalVector                &displacement,
+                       const unsigned int                highest) override;
+
     double              strain_energy() const override;
     double              released_energy(const NodalVector &, const double) const override { return 0.; }
     std::vector<double> dilatation() const override;
@@ -59,7 +66,8 @@ namespace perideal
 
     /// Brings gradients, moments and bonds to the last compute() again; others may have used them since.
     /// Collective.
-    void evaluate() const;
+    /// @param some only of these; null: of all cells
+    void evaluate(const CellSubset *some = nullptr) const;
 
     /// Whether laws are linear and strains small.
     bool is_linear() const { return has_small_strain; }
@@ -92,12 +100,11 @@ namespace perideal
     bool carries_force(const BondIndex slot) const override { return bonds->stiffness(slot) > 0; }
     void clear_weights(const BondIndex slot) override { bonds->remove(slot); }
 
-    /// Green's strain of a gradient in pairs, or the small one.
-    typename SymmetricPairs<dim>::Pairs strain_of(const dealii::Tensor<2, dim> &gradient) const;
     /// Puts the stress of a cell, and what its bonds do besides, in the places of gradient and moment.
-    void turn_into_stress(const LocalIndex i) const;
-    /// Adds the force of what evaluate() has found, and that on supports.
-    void add_force(NodalVector &force);
+    /// @param counts whether its own stress does
+    void turn_into_stress(const LocalIndex i, const bool counts) const;
+    /// Leaves in added what evaluate() has found, the force turned round.
+    void spread(const CellSubset *some);
     /// The energy of what evaluate() has found [J].
     double evaluated_energy() const;
 

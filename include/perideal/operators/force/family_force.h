@@ -41,9 +41,9 @@ namespace perideal
                                   const typename BondForce<dim>::Reweigh        &reweigh) override;
     void   take_weights(const BondWeights<dim> &scaled, const std::vector<double> &share) override;
     void   compute(NodalVector &force, const NodalVector &displacement) override;
-    void   compute_parts(std::vector<NodalVector> &parts,
-                         const NodalVector        &displacement,
-                         const unsigned int        highest) override;
+    void   compute_parts(std::vector<LevelledForce::Part> &parts,
+                         const NodalVector                &displacement,
+                         const unsigned int                highest) override;
     void   visit_bond_forces(const typename BondForce<dim>::VisitBond &visit) const override;
     void   restore_broken(const std::vector<BondEnds> &broken) override;
     double strain_energy() const override;

@@ -18,15 +18,24 @@ namespace perideal
   public:
     virtual ~LevelledForce() = default;
 
+    /// Of one level.
+    struct Part
+    {
+      /// On owned nodes [N].
+      NodalVector force;
+      /// What supports exert at prescribed values at faces [N], by component of the entries
+      /// (LocalSteps::levels_of_supports()).
+      std::vector<double> support;
+    };
+
     void take_local_steps(const std::shared_ptr<const LocalSteps> &steps) { local_steps = steps; }
 
     /// Computes the force on the owned nodes as far as the levels up to one; in the sum of these parts
     /// nothing is missing that nodes of these levels change. No bond fails. With less than all levels, sums
     /// and energies are not those of the body. Collective.
-    /// @param parts by level [N]; higher ones stay as they are @param displacement of owned nodes [m]
-    virtual void compute_parts(std::vector<NodalVector> &parts,
-                               const NodalVector        &displacement,
-                               const unsigned int        highest) = 0;
+    /// @param parts by level; higher ones stay as they are @param displacement of owned nodes [m]
+    virtual void
+    compute_parts(std::vector<Part> &parts, const NodalVector &displacement, const unsigned int highest) = 0;
 
   protected:
     /// Those whose blocks a pass over the bonds goes over; without local steps, all.

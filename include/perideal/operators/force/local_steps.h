@@ -15,9 +15,9 @@ namespace perideal
    * 2^k times the shortest. A node is of the lowest level that its family asks for, so that those at a change
    * of cell size, whose families are stiffer than those of equal cells, move with the smaller ones.
    *
-   * A family is of the lowest level of its members. Forces are split by blocks of rows of the bond list
-   * (RestRegions::block_size), each of the lowest level of the families that its bonds belong to. What nodes
-   * of level k do changes no family and no force of a higher level.
+   * A family is of the lowest level of its members. Forces of bonds are split by blocks of rows of the bond
+   * list (RestRegions::block_size), each of the lowest level of the families that its bonds belong to, those
+   * of cells by cells. What nodes of level k do changes no family and no force of a higher level.
    */
   class LocalSteps
   {
@@ -29,6 +29,7 @@ namespace perideal
                const BondList                  &bonds,
                const std::vector<unsigned int> &own,
                const unsigned int               n_levels);
+    virtual ~LocalSteps() = default;
 
     /// Of two levels (SubSteps): nu is chosen, 1 without damping; with it fast motions of the lower level
     /// stay .15 of the 4 that leapfrog bears away from both of its bounds. omega takes them to the bounds,
@@ -46,6 +47,10 @@ namespace perideal
     /// The lowest level whose blocks have bonds of an owned node.
     unsigned int level_of_force(const LocalIndex node) const { return forces[node]; }
     unsigned int level_of_block(const LocalIndex block) const { return blocks[block]; }
+
+    /// The lowest level of the forces on prescribed values at faces, by entry of these; empty where forces
+    /// know of none.
+    const std::vector<unsigned int> &levels_of_supports() const { return supports; }
 
     /// Owned nodes, in their order: those of the levels up to one; those with families of these levels; those
     /// whose bonds are in blocks of these levels, or of this one alone.
@@ -66,13 +71,25 @@ namespace perideal
     /// Share of the families that steps evaluate, of all families in all of the shortest steps.
     double share_of_cell_steps() const;
 
-    std::size_t memory_consumption() const;
+    virtual std::size_t memory_consumption() const;
+
+  protected:
+    /// Of forces that are split by cells. Collective.
+    /// @param nodes levels of the owned ones @param of_cells of what owned cells do @param pulled owned nodes
+    /// on which cells of each level act @param supports as levels_of_supports()
+    LocalSteps(const std::vector<unsigned int>            &nodes,
+               const std::vector<unsigned int>            &of_cells,
+               const std::vector<std::vector<LocalIndex>> &pulled,
+               const std::vector<unsigned int>            &supports,
+               MPI_Comm                                    communicator);
 
   private:
-    void make_lists(const BondList &bonds, const std::vector<unsigned int> &of_families);
+    void make_lists(const std::vector<unsigned int>            &of_families,
+                    const std::vector<std::vector<LocalIndex>> &pulled,
+                    MPI_Comm                                    communicator);
 
     /// By owned node, and by block of its rows.
-    std::vector<unsigned int> nodes, forces, blocks;
+    std::vector<unsigned int> nodes, forces, blocks, supports;
     struct Lists
     {
       std::vector<LocalIndex> moving, families, pulled, pulled_alone;
@@ -81,6 +98,13 @@ namespace perideal
     std::vector<GlobalIndex> counts;
     unsigned int             lowest;
   };
+
+  /// Returns the lowest level of each local node and its neighbours. Collective.
+  /// @param levels of the owned nodes
+  template <int dim>
+  std::vector<unsigned int> lowest_of_neighbours(const Families<dim>             &families,
+                                                 const BondList                  &bonds,
+                                                 const std::vector<unsigned int> &levels);
 } // namespace perideal
 
 #endif

@@ -20,21 +20,29 @@ namespace perideal
                           const std::function<double(const dealii::types::material_id)> &density,
                           const std::vector<bool>                                       &moves = {});
 
+  /// Levels of local steps.
+  struct LocalStepLevels
+  {
+    /// By owned node, k where its step may be 2^k times the shortest one.
+    std::vector<unsigned int> of_nodes;
+    /// How many times shorter steps would have to be for many more nodes to be of one level more, such that
+    /// they take less time; 1: there are no such nodes [-].
+    double shortening = 1;
+  };
+
   /**
-   * Chooses the level of each owned node, k where its step may be 2^k times the shortest one: by the diagonal
-   * of M^-1 K over that of the fastest node, so that what moves with a level or a higher one, all others
-   * held, keeps a safe share of its largest stable step. Collective.
+   * Chooses levels by the diagonal of M^-1 K over that of the fastest node, so that what moves with a level
+   * or a higher one, all others held, keeps a safe share of its largest stable step. Collective.
    * @param stable_of returns the largest stable step of some nodes with the others held [s]; empty: of all
    * @param step the shortest [s] @param safety that share [-] @param n_levels beyond the highest
    */
   template <int dim>
-  std::vector<unsigned int>
-  local_step_levels(const ConstrainedOperator<dim>                                &system,
-                    const std::function<double(const dealii::types::material_id)> &density,
-                    const std::function<double(const std::vector<bool> &)>        &stable_of,
-                    const double                                                   step,
-                    const double                                                   safety,
-                    const unsigned int                                             n_levels);
+  LocalStepLevels local_step_levels(const ConstrainedOperator<dim>                                &system,
+                                    const std::function<double(const dealii::types::material_id)> &density,
+                                    const std::function<double(const std::vector<bool> &)>        &stable_of,
+                                    const double                                                   step,
+                                    const double                                                   safety,
+                                    const unsigned int                                             n_levels);
 } // namespace perideal
 
 #endif

@@ -7,6 +7,7 @@
 #include <perideal/materials/consistent.h>
 #include <perideal/neighbourhood/bond_list.h>
 #include <perideal/operators/weights/cell_shares.h>
+#include <perideal/operators/weights/cell_subset.h>
 #include <perideal/reconstruction/cell_polynomials.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -62,9 +63,10 @@ namespace perideal
     }
 
     /// Sums over the bonds of a body at small strain, of the states set. Collective.
-    void sum_small();
+    /// @param some only over those of the rows of its cells; null: over all
+    void sum_small(const CellSubset *some = nullptr);
     /// The same at finite strain. Collective.
-    void sum_finite();
+    void sum_finite(const CellSubset *some = nullptr);
 
     /// What forces at finite strain change with.
     struct Linearisation
@@ -150,8 +152,9 @@ namespace perideal
       change
     };
     /// @param at of changes; else null
+    /// @param some as above
     template <Kinematics kinematics>
-    void   sum(const Linearisation *at);
+    void   sum(const Linearisation *at, const CellSubset *some);
     double energy(const bool is_finite) const;
     /// r of a bond of an owned node at the states set [m^2].
     double residual(const LocalIndex i, const LocalIndex j, const bool is_finite) const;

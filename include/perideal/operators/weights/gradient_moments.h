@@ -4,6 +4,7 @@
 
 #include <perideal/base/lanes.h>
 #include <perideal/boundary/face_values.h>
+#include <perideal/operators/weights/cell_subset.h>
 #include <perideal/operators/weights/face_integrals.h>
 #include <perideal/operators/weights/polynomial_loads.h>
 #include <perideal/reconstruction/cell_polynomials.h>
@@ -66,7 +67,9 @@ namespace perideal
     };
 
     /// Computes G, H and the values at the centroids of a displacement of owned nodes [m]. Collective.
-    void read(const NodalVector &displacement, const AtFaces at_faces) const;
+    /// @param some only for these; null: of all cells
+    void
+    read(const NodalVector &displacement, const AtFaces at_faces, const CellSubset *some = nullptr) const;
 
     /// Of an owned cell, lanes by component of the displacement: G_l [-], H_kl [m^3] behind k dim + l, and
     /// the coefficients of its polynomial about the centroid, of which the first is the value there [m].
@@ -83,11 +86,13 @@ namespace perideal
     /// Computes the forces on nodes that belong to what acts on gradient(), moment() and polynomial()[0],
     /// which the caller has written to gradient(), moment() [N m, N/m^2] and force(). It leaves no
     /// polynomials. Collective.
-    void transpose(NodalVector &force) const;
+    /// @param some those of the last read(): forces on other nodes than theirs stay as they are
+    void transpose(NodalVector &force, const CellSubset *some = nullptr) const;
 
     /// Forces that supports exert on the body at the prescribed values [N], by entry, of the last
     /// transpose().
-    std::vector<dealii::Tensor<1, dim>> support_forces() const;
+    /// @param some those of its cells
+    std::vector<dealii::Tensor<1, dim>> support_forces(const CellSubset *some = nullptr) const;
 
     /// Adds the forces on owned nodes that belong to loads [N]. Collective.
     void add_nodal_forces(const PolynomialLoads<dim> &loads, NodalVector &force) const;
@@ -146,10 +151,10 @@ namespace perideal
       return {{place_of(face.node[0]), is_inner ? place_of(face.node[1]) : FaceMoments<dim>::none}};
     }
 
-    void read_polynomials(const NodalVector &displacement) const;
-    void sum_over_faces(const AtFaces at_faces) const;
-    void spread_to_faces() const;
-    void spread_to_nodes(NodalVector &force) const;
+    void read_polynomials(const NodalVector &displacement, const CellSubset *some = nullptr) const;
+    void sum_over_faces(const AtFaces at_faces, const CellSubset *some) const;
+    void spread_to_faces(const CellSubset *some) const;
+    void spread_to_nodes(NodalVector &force, const CellSubset *some) const;
     /// Spreads what acts on the polynomial of one cell, which is the n-th of those that are closed, if any.
     void spread_cell(const LocalIndex i, const std::size_t n) const;
     /// Prescribed value of an entry as asked for.
