@@ -192,8 +192,7 @@ namespace perideal
         "set Solver/Damping"),
       refuse(
         "Solver/Local step ratio",
-        "Solver/Local step ratio > 1, with Material/Model = correspondence | tensor involved or Multipliers "
-        "= "
+        "Solver/Local step ratio > 1, with Material/Form = family, Model = tensor involved or Multipliers = "
         "recomputed",
         [](const Scene &s) {
           return has_local_steps(s) && !has_families_of_bonds(s.model) && !s.model.is_consistent();
