@@ -59,6 +59,7 @@ namespace perideal
     std::shared_ptr<const LocalSteps> local;
 
   private:
+    /// Takes steps of one size up to the end of the motion [s].
     void take(const SolverParameters &solver, const double step);
 
     bool         is_resumed = false;

@@ -49,14 +49,14 @@ namespace perideal
 
   CellSteps::CellSteps(Levels levels)
     : LocalSteps(levels.of_nodes, levels.of_cells, levels.pulled, levels.of_supports, levels.communicator)
-    , of_levels(std::move(levels))
+    , subsets(std::move(levels.subsets))
   {
   }
 
   std::size_t CellSteps::memory_consumption() const
   {
     std::size_t result = LocalSteps::memory_consumption();
-    for (const CellSubset &subset : of_levels.subsets)
+    for (const CellSubset &subset : subsets)
       result += subset.memory_consumption();
     return result;
   }

@@ -23,11 +23,12 @@ namespace perideal
               const std::vector<unsigned int> &own,
               const unsigned int               n_levels);
 
-    const CellSubset &cells(const unsigned int level) const { return of_levels.subsets[level]; }
+    const CellSubset &cells(const unsigned int level) const { return subsets[level]; }
 
     std::size_t memory_consumption() const override;
 
   private:
+    /// What is found before there are any steps.
     struct Levels
     {
       std::vector<unsigned int>            of_nodes, of_cells, of_supports;
@@ -43,7 +44,8 @@ namespace perideal
                        const std::vector<unsigned int> &own,
                        const unsigned int               n_levels);
 
-    Levels of_levels;
+    /// By level.
+    std::vector<CellSubset> subsets;
   };
 } // namespace perideal
 
