@@ -19,6 +19,11 @@ namespace perideal
     /// Iterations of a step that is found easily, after which the next one is longer.
     constexpr unsigned int few_iterations = 14;
     constexpr double       growth         = 1.5;
+    /// Iterations in which the residual has to fall by half where a gauge is controlled, in the first try of
+    /// a step; twice as many in each shorter one. Where the tangent does not lead on, iterations mostly
+    /// creep, and half the step takes few: the notched beam of .7 mm took 18,300 linear iterations without a
+    /// limit, and 12,700 so. Where dissipated energy is controlled, residuals rise before they fall.
+    constexpr unsigned int first_patience = 8;
     /// Share of the largest step from which on dissipated energy is controlled.
     constexpr double noticed = 0.02;
     /// Share of the largest step that may be missing at the end of one.
@@ -94,9 +99,9 @@ namespace perideal
                                          const typename EquilibriumPath<dim>::Progress &progress)
   {
     EquilibriumStep result;
-    while (true)
+    for (unsigned int patience = first_patience;; patience *= 2)
       {
-        EquilibriumStep now = attempt(announce, progress);
+        EquilibriumStep now = attempt(patience, announce, progress);
         now.add_before(result);
         result = now;
         if (result.converged || !shorten())
@@ -108,7 +113,8 @@ namespace perideal
   }
 
   template <int dim>
-  EquilibriumStep LoadControl<dim>::attempt(const Announce                                &announce,
+  EquilibriumStep LoadControl<dim>::attempt(const unsigned int                             patience,
+                                            const Announce                                &announce,
                                             const typename EquilibriumPath<dim>::Progress &progress)
   {
     EquilibriumStep result;
@@ -120,15 +126,15 @@ namespace perideal
       }
     else
       {
-        double left = solver.control_end > 0 ? solver.control_end - reached : amount, wanted = amount;
-        if (solver.control == LoadControlName::gauge)
+        const bool by_gauge = solver.control == LoadControlName::gauge;
+        double     left = solver.control_end > 0 ? solver.control_end - reached : amount, wanted = amount;
+        if (by_gauge)
           left = largest_amount * (std::floor(reached / largest_amount + nearly_there) + 1.) - reached;
         else
           wanted = std::min(amount, path.energy().strain);
         const double target = wanted > (1. - nearly_there) * left ? left : wanted;
-        announce((solver.control == LoadControlName::gauge ? "gauge by " : "dissipated energy by ") +
-                 short_number(target));
-        result = path.advance(target, progress);
+        announce((by_gauge ? "gauge by " : "dissipated energy by ") + short_number(target));
+        result = path.advance(target, progress, by_gauge ? patience : ControlledNewton<dim>::endless);
       }
     if (result.converged)
       lengthen(result.iterations);

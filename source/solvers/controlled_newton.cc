@@ -91,7 +91,8 @@ namespace perideal
   }
 
   template <int dim>
-  EquilibriumStep ControlledNewton<dim>::advance(const double amount, const Progress &progress)
+  EquilibriumStep
+  ControlledNewton<dim>::advance(const double amount, const Progress &progress, const unsigned int patience)
   {
     this->start_in_place();
     this->increment              = 0.;
@@ -99,9 +100,15 @@ namespace perideal
     const bool           is_near = predict(amount);
     EquilibriumStep      result;
     std::optional<Start> with_cells;
-    const bool           softens = this->bonds.softening_bonds().softens();
-    unsigned int n_secants = softens && !control.gauge && !is_near ? first_secants : 0, since_progress = 0;
-    double       least_residual = std::numeric_limits<double>::max();
+    const bool           softens   = this->bonds.softening_bonds().softens();
+    unsigned int         n_secants = softens && !control.gauge && !is_near ? first_secants : 0;
+    // Since the residual fell to a tenth, and to a half.
+    unsigned int since_tenth = 0, since_half = 0;
+    double       tenth_of = std::numeric_limits<double>::max(), half_of = tenth_of;
+    const auto   begin_anew = [&] {
+      since_tenth = since_half = 0;
+      half_of                  = std::numeric_limits<double>::max();
+    };
     while (true)
       {
         const auto   norms     = this->measure(external);
@@ -118,7 +125,7 @@ namespace perideal
               {
                 if (!with_cells)
                   with_cells = Start{displacement, now};
-                since_progress = 0;
+                begin_anew();
                 continue;
               }
             const GlobalIndex n_broken = this->controls.bonds_break ? this->judge(external) : 0;
@@ -138,15 +145,20 @@ namespace perideal
                 result.converged = true;
                 return result;
               }
-            since_progress = 0;
+            begin_anew();
             continue;
           }
-        if (residual < 0.1 * least_residual)
+        if (residual < 0.1 * tenth_of)
           {
-            least_residual = residual;
-            since_progress = 0;
+            tenth_of    = residual;
+            since_tenth = 0;
           }
-        if (since_progress++ == this->controls.max_iterations)
+        if (residual < 0.5 * half_of)
+          {
+            half_of    = residual;
+            since_half = 0;
+          }
+        if (since_tenth++ == this->controls.max_iterations || since_half++ == patience)
           return result;
         ++result.iterations;
         if (n_secants > 0)

@@ -45,7 +45,9 @@ namespace perideal
 
   private:
     /// One attempt. Collective.
-    EquilibriumStep attempt(const Announce                                &announce,
+    /// @param patience as of ControlledNewton, of a gauge
+    EquilibriumStep attempt(const unsigned int                             patience,
+                            const Announce                                &announce,
                             const typename EquilibriumPath<dim>::Progress &progress);
     /// After an attempt; returns false where no shorter one is left.
     bool shorten();

@@ -46,6 +46,8 @@ namespace perideal
     /// Reads what is controlled off a displacement [m]. Collective.
     using Gauge = std::function<double(const NodalVector &)>;
 
+    static constexpr unsigned int endless = std::numeric_limits<unsigned int>::max();
+
     /// The controlled quantity and what the loads are.
     struct Control
     {
@@ -68,7 +70,9 @@ namespace perideal
 
     /// Goes on from the last equilibrium to one at which the controlled quantity has grown by an amount. A
     /// failure is reported, not thrown. Collective.
-    EquilibriumStep advance(const double amount, const Progress &progress);
+    /// @param patience iterations in which the residual has to fall by half
+    EquilibriumStep
+    advance(const double amount, const Progress &progress, const unsigned int patience = endless);
 
     /// Goes on from the last equilibrium to one at a time, if it can without a jump. Collective.
     EquilibriumStep load(const double time, const Progress &progress);
