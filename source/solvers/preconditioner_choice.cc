@@ -92,7 +92,7 @@ namespace perideal
     result.solve      = result.iterations * size.bond_factor * size.bonds;
     if (!size.symmetric)
       {
-        // GMRES orthogonalises, and begins anew every hundred iterations.
+        // GMRES orthogonalises, and may begin anew.
         result.iterations *= 1.7;
         result.solve *= 1.7 * 1.8;
       }
