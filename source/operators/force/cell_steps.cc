@@ -27,13 +27,11 @@ namespace perideal
         result.subsets.push_back(reach.subset(cells));
         result.pulled.push_back(result.subsets.back().nodes);
       }
-    for (const auto &entry : moments.prescribed_values().entries())
-      {
-        unsigned int level = 0;
-        while (!result.subsets[level].has_gradient(moments.faces().boundary_points()[entry.point].node))
-          ++level;
-        result.of_supports.push_back(level);
-      }
+    // The lowest of those whose cells they act on.
+    result.of_supports.resize(moments.prescribed_values().entries().size());
+    for (unsigned int level = n_levels; level-- > 0;)
+      for (const std::size_t entry : result.subsets[level].entries)
+        result.of_supports[entry] = level;
     return result;
   }
 

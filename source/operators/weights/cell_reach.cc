@@ -114,7 +114,11 @@ namespace perideal
         for (BondIndex k = polynomials.first()[i]; k < polynomials.first()[i + 1]; ++k)
           of_node.local_element(polynomials.columns()[k]) = 1.;
       }
-    result.nodes = collect_marked(of_node);
+    result.nodes        = collect_marked(of_node);
+    const auto &entries = moments.prescribed_values().entries();
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (has_gradient[moments.faces().boundary_points()[entries[e].point].node])
+        result.entries.push_back(e);
     return result;
   }
 

@@ -136,16 +136,17 @@ namespace perideal
     // dU/du at the points of a face, of which V G_l and H_kl have the sums n_l u and n_l (x - x_i)_k u.
     const auto                         &points  = face_moments->boundary_points();
     const auto                         &entries = prescribed->entries();
-    std::vector<dealii::Tensor<1, dim>> result;
-    for (const auto &entry : entries)
+    std::vector<dealii::Tensor<1, dim>> result(entries.size());
+    const LoopOver<std::size_t>         loop(some ? &some->entries : nullptr, entries.size());
+    for (std::size_t n = 0; n < loop.size(); ++n)
       {
+        const auto               &entry  = entries[loop[n]];
         const BoundaryPoint<dim> &point  = points[entry.point];
         const LocalIndex          i      = point.node;
         const auto                arm    = point.point - polynomials->centroids()[i];
         const bool                slides = entry.sliding_condition != FaceValues<dim>::free;
-        const bool                counts = !some || some->has_gradient(i);
         dealii::Tensor<1, dim>    force;
-        for (int a = 0; a < dim && counts; ++a)
+        for (int a = 0; a < dim; ++a)
           if (slides || entry.condition[a] != FaceValues<dim>::free)
             for (int l = 0; l < dim; ++l)
               {
@@ -154,7 +155,7 @@ namespace perideal
                   pull += arm[k] * moment(i)[dim * k + l].value[a];
                 force[a] += pull * point.area[l];
               }
-        result.push_back(slides ? (force * entry.normal) * entry.normal : force);
+        result[loop[n]] = slides ? (force * entry.normal) * entry.normal : force;
       }
     return result;
   }

@@ -44,6 +44,18 @@ namespace perideal
         act(std::integral_constant<unsigned int, dim - 1>());
     }
 
+    /// Takes what is prescribed out of what a face gives.
+    template <int dim, typename Held>
+    void take_free_part(const Held &face, FaceSums<dim> &sums)
+    {
+      for (unsigned int l = 0; l < dim; ++l)
+        {
+          sums.gradient[l] = face.free_part(sums.gradient[l]);
+          for (unsigned int k = 0; k < dim; ++k)
+            sums.moment[k][l] = face.free_part(sums.moment[k][l]);
+        }
+    }
+
     /// The places of the polynomials of a face's cells.
     using Cells = std::array<LocalIndex, 2>;
 
@@ -114,15 +126,32 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  Lanes GradientMoments<dim>::prescribed_value(const std::size_t entry, const AtFaces at_faces) const
+  template <typename AlongAxis, typename Any>
+  PERIDEAL_INLINE void
+  GradientMoments<dim>::visit_faces(const CellSubset *some, const AlongAxis &along_axis, const Any &any) const
   {
-    Lanes       result = {};
-    const auto &from   = prescribed->entries()[entry];
-    for (int d = 0; d < dim; ++d)
-      result[d] = at_faces == AtFaces::nothing ? 0. :
-                  at_faces == AtFaces::values  ? from.value[d] :
-                                                 from.increment[d];
-    return result;
+    const auto                 &faces         = face_moments->faces();
+    const std::size_t           n_inner_faces = face_moments->n_inner_faces();
+    auto                        next          = held.begin();
+    const LoopOver<std::size_t> loop(some ? &some->faces : nullptr, faces.size());
+    for (std::size_t n = 0; n < loop.size(); ++n)
+      {
+        const std::size_t f = loop[n];
+        while (next != held.end() && next->first < f)
+          ++next;
+        if (f + n_ahead < n_inner_faces)
+          prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
+        const Shape &shape    = face_moments->shape_of(faces[f]);
+        const bool   is_inner = f < n_inner_faces;
+        const Cells  cells    = cells_of(faces[f], is_inner);
+        if (const auto &along = aligned[faces[f].shape]; is_inner && along.axis != AlignedFace<dim>::none)
+          with_axis<dim>(along.axis, [&](const auto axis) { along_axis(axis, shape, along, cells); });
+        else
+          any(shape,
+              cells,
+              is_inner ? 2u : 1u,
+              next != held.end() && next->first == f ? &next->second : nullptr);
+      }
   }
 
   template <int dim>
@@ -156,50 +185,32 @@ namespace perideal
               lanes(h[dim * k + l]) += sign * sums.moment[k][l] + shape.offset[side][k] * value;
           }
       };
-    const auto                 &faces         = face_moments->faces();
-    const std::size_t           n_inner_faces = face_moments->n_inner_faces();
-    auto                        next          = held.begin();
-    const LoopOver<std::size_t> loop(some ? &some->faces : nullptr, faces.size());
-    for (std::size_t n = 0; n < loop.size(); ++n)
-      {
-        const std::size_t f = loop[n];
-        while (next != held.end() && next->first < f)
-          ++next;
-        if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
-        const Shape &shape    = face_moments->shape_of(faces[f]);
-        const bool   is_inner = f < n_inner_faces;
-        const Cells  cell     = cells_of(faces[f], is_inner);
-        if (const auto &along = aligned[faces[f].shape]; is_inner && along.axis != AlignedFace<dim>::none)
-          {
-            with_axis<dim>(along.axis, [&](const auto axis) {
-              sum_over_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
-            });
-            continue;
-          }
+    visit_faces(
+      some,
+      [&](const auto axis, const Shape &shape, const AlignedFace<dim> &along, const Cells &cell) {
+        sum_over_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
+      },
+      [&](const Shape &shape, const Cells &cell, const unsigned int n_sides, const Held *of_face) {
         Lanes         polynomial[n_coefficients] = {};
         FaceSums<dim> sums;
-        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+        for (unsigned int side = 0; side < n_sides; ++side)
           add_shifted<dim>(work.polynomial.data() + n_coefficients * cell[side],
                            shape.offset[side].begin_raw(),
                            shape.share[side],
                            polynomial);
         integrate<dim>(face_moments->moments_of(shape), shape.is_plane, polynomial, sums);
-        if (!is_inner && next != held.end() && next->first == f)
+        if (of_face != nullptr)
           {
-            const Held &of_face = next->second;
-            for (unsigned int l = 0; l < dim; ++l)
-              {
-                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
-                for (unsigned int k = 0; k < dim; ++k)
-                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
-              }
+            take_free_part<dim>(*of_face, sums);
             const auto centre = polynomials->centroids()[cell[0]] + shape.offset[0];
             for (unsigned int q = 0; at_faces != AtFaces::nothing && q < FaceMoments<dim>::n_points; ++q)
               {
-                const std::size_t e     = next->second.first_entry + q;
-                const auto       &point = face_moments->boundary_points()[prescribed->entries()[e].point];
-                const Lanes       value = next->second.mask * prescribed_value(e, at_faces);
+                const auto &entry = prescribed->entries()[of_face->first_entry + q];
+                const auto &point = face_moments->boundary_points()[entry.point];
+                Lanes       value = {};
+                for (int d = 0; d < dim; ++d)
+                  value[d] =
+                    of_face->mask[d] * (at_faces == AtFaces::values ? entry.value[d] : entry.increment[d]);
                 for (unsigned int l = 0; l < dim; ++l)
                   {
                     sums.gradient[l] += point.area[l] * value;
@@ -208,9 +219,9 @@ namespace perideal
                   }
               }
           }
-        for (unsigned int side = 0; side < (is_inner ? 2u : 1u); ++side)
+        for (unsigned int side = 0; side < n_sides; ++side)
           add(cell[side], shape, side, sums);
-      }
+      });
     if (some)
       clear(some->without_gradient);
   }
@@ -240,48 +251,25 @@ namespace perideal
             sums.gradient[l] += sign * pull;
           }
       };
-    const auto                 &faces         = face_moments->faces();
-    const std::size_t           n_inner_faces = face_moments->n_inner_faces();
-    auto                        next          = held.begin();
-    const LoopOver<std::size_t> loop(some ? &some->faces : nullptr, faces.size());
-    for (std::size_t n = 0; n < loop.size(); ++n)
-      {
-        const std::size_t f = loop[n];
-        while (next != held.end() && next->first < f)
-          ++next;
-        if (f + n_ahead < n_inner_faces)
-          prefetch_cell<dim>(work, cells_of(faces[f + n_ahead], true)[1]);
-        const Shape       &shape   = face_moments->shape_of(faces[f]);
-        const unsigned int n_sides = f < n_inner_faces ? 2 : 1;
-        const Cells        cell    = cells_of(faces[f], n_sides == 2);
-        if (const auto &along = aligned[faces[f].shape]; n_sides == 2 && along.axis != AlignedFace<dim>::none)
-          {
-            with_axis<dim>(along.axis, [&](const auto axis) {
-              spread_to_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
-            });
-            continue;
-          }
+    visit_faces(
+      some,
+      [&](const auto axis, const Shape &shape, const AlignedFace<dim> &along, const Cells &cell) {
+        spread_to_aligned<dim, axis()>(work, n_owned_cells, cell, shape.share, along);
+      },
+      [&](const Shape &shape, const Cells &cell, const unsigned int n_sides, const Held *of_face) {
         FaceSums<dim> sums = {};
         Lanes         polynomial[n_coefficients];
         for (unsigned int side = 0; side < n_sides; ++side)
           add(cell[side], shape, side, sums);
-        if (n_sides == 1 && next != held.end() && next->first == f)
-          {
-            const Held &of_face = next->second;
-            for (unsigned int l = 0; l < dim; ++l)
-              {
-                sums.gradient[l] = of_face.free_part(sums.gradient[l]);
-                for (unsigned int k = 0; k < dim; ++k)
-                  sums.moment[k][l] = of_face.free_part(sums.moment[k][l]);
-              }
-          }
+        if (of_face != nullptr)
+          take_free_part<dim>(*of_face, sums);
         integrate_back<dim>(face_moments->moments_of(shape), shape.is_plane, sums, polynomial);
         for (unsigned int side = 0; side < n_sides; ++side)
           add_shifted_back<dim>(polynomial,
                                 shape.offset[side].begin_raw(),
                                 shape.share[side],
                                 work.polynomial.data() + n_coefficients * cell[side]);
-      }
+      });
     add_to_owners(*of_polynomials, work.polynomial, work.temporary);
   }
 

@@ -26,19 +26,15 @@ namespace perideal
     std::vector<LocalIndex>  polynomials, without_gradient;
     /// Nodes that these polynomials are made of.
     std::vector<LocalIndex> nodes;
-
-    bool has_gradient(const LocalIndex cell) const
-    {
-      return std::binary_search(own.begin(), own.end(), cell) ||
-             std::binary_search(far_ends.begin(), far_ends.end(), cell);
-    }
+    /// Prescribed values at faces of cells that have gradients.
+    std::vector<std::size_t> entries;
 
     std::size_t memory_consumption() const
     {
       using dealii::MemoryConsumption::memory_consumption;
       return memory_consumption(own) + memory_consumption(far_ends) + memory_consumption(faces) +
              memory_consumption(polynomials) + memory_consumption(without_gradient) +
-             memory_consumption(nodes);
+             memory_consumption(nodes) + memory_consumption(entries);
     }
   };
 

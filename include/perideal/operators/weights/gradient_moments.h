@@ -152,13 +152,15 @@ namespace perideal
     }
 
     void read_polynomials(const NodalVector &displacement, const CellSubset *some = nullptr) const;
+    /// Calls along_axis(axis, shape, aligned, cells) for aligned inner faces, the axis as a constant, and
+    /// any(shape, cells, n_sides, held) for other ones, with null where nothing is held.
+    template <typename AlongAxis, typename Any>
+    void visit_faces(const CellSubset *some, const AlongAxis &along_axis, const Any &any) const;
     void sum_over_faces(const AtFaces at_faces, const CellSubset *some) const;
     void spread_to_faces(const CellSubset *some) const;
     void spread_to_nodes(NodalVector &force, const CellSubset *some) const;
     /// Spreads what acts on the polynomial of one cell, which is the n-th of those that are closed, if any.
     void spread_cell(const LocalIndex i, const std::size_t n) const;
-    /// Prescribed value of an entry as asked for.
-    Lanes prescribed_value(const std::size_t entry, const AtFaces at_faces) const;
 
     std::shared_ptr<const CellPolynomials<dim>> polynomials;
     std::shared_ptr<const FaceMoments<dim>>     face_moments;
