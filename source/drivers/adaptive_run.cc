@@ -152,7 +152,10 @@ namespace perideal
       double                     time         = 0;
       {
         Problem<dim> problem(parameters, context, communicator);
-        problem.body.make_mesh(context.scene_directory, communicator);
+        {
+          const Timings::Scope scope(problem.run.timings, "mesh");
+          problem.body.make_mesh(context.scene_directory, communicator);
+        }
         if (parameters.checkpoints.restart)
           time = refine_as_in_checkpoint(parameters.output_directory, *problem.body.mesh);
         else
@@ -162,7 +165,8 @@ namespace perideal
             driver->adaptation.look_at_first_mesh();
             change = std::move(driver->adaptation.change);
           }
-        mesh = std::move(problem.body.mesh);
+        mesh    = std::move(problem.body.mesh);
+        earlier = problem.run.record();
       }
       // Its seconds belong to the run, too.
       const auto change_mesh = [&] {

@@ -26,6 +26,7 @@ namespace perideal
   template <int dim>
   void MeshAdaptation<dim>::look_at_first_mesh()
   {
+    const Timings::Scope scope(problem.run.timings, "adaptation");
     change.need = std::make_unique<MeshNeed<dim>>(problem, 0., needed_before);
     change.state =
       std::make_unique<CarriedState<dim>>(problem, Checkpoint(), nodes_of_state(problem), *change.need);
