@@ -118,7 +118,8 @@ namespace perideal
                                             const typename EquilibriumPath<dim>::Progress &progress)
   {
     EquilibriumStep result;
-    if (by_loads || jumps)
+    const bool      by_gauge = solver.control == LoadControlName::gauge;
+    if (by_loads || (jumps && !by_gauge))
       {
         const double target = std::min(1., path.time() + time_step);
         announce((jumps ? "by a jump to t = " : "to t = ") + short_number(target));
@@ -126,15 +127,23 @@ namespace perideal
       }
     else
       {
-        const bool by_gauge = solver.control == LoadControlName::gauge;
-        double     left = solver.control_end > 0 ? solver.control_end - reached : amount, wanted = amount;
+        double left = solver.control_end > 0 ? solver.control_end - reached : amount, wanted = amount;
         if (by_gauge)
           left = largest_amount * (std::floor(reached / largest_amount + nearly_there) + 1.) - reached;
         else
           wanted = std::min(amount, path.energy().strain);
         const double target = wanted > (1. - nearly_there) * left ? left : wanted;
-        announce((by_gauge ? "gauge by " : "dissipated energy by ") + short_number(target));
-        result = path.advance(target, progress, by_gauge ? patience : ControlledNewton<dim>::endless);
+        announce((jumps    ? "by a jump, gauge by " :
+                  by_gauge ? "gauge by " :
+                             "dissipated energy by ") +
+                 short_number(target));
+        typename ControlledNewton<dim>::Patience of_attempt;
+        if (by_gauge)
+          of_attempt = {jumps ? first_patience : patience, jumps};
+        result = path.advance(target, progress, of_attempt);
+        // What was the rest of a step is halved itself.
+        if (!result.converged)
+          amount = std::min(amount, target);
       }
     if (result.converged)
       lengthen(result.iterations);
@@ -149,7 +158,9 @@ namespace perideal
     largest_energy = std::max(largest_energy, path.energy().strain);
     if (jumps)
       {
-        jumps    = false;
+        jumps = false;
+        if (solver.control == LoadControlName::gauge)
+          return;
         by_loads = path.amount() < noticed * largest_amount;
         amount   = largest_amount;
         return;
@@ -191,9 +202,11 @@ namespace perideal
         time_step              = largest_time_step;
         return true;
       }
-    amount *= 0.5;
-    if (amount >= least || solver.control == LoadControlName::gauge)
-      return amount >= least;
+    if (0.5 * amount >= least)
+      {
+        amount *= 0.5;
+        return true;
+      }
     jumps     = true;
     time_step = largest_time_step;
     return true;

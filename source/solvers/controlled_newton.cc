@@ -30,6 +30,9 @@ namespace perideal
     constexpr unsigned int n_by_gauge = 4, n_by_dissipation = 2;
     /// What the residual after such an iteration may be over that before.
     constexpr double largest_left = 0.9;
+    /// How often the iterations of an attempt that jumps are counted anew.
+    constexpr unsigned int most_in_jump = 20;
+    constexpr unsigned int endless      = std::numeric_limits<unsigned int>::max();
     /// Readings of what is controlled that find a change of t.
     constexpr unsigned int most_readings = 5;
   } // namespace
@@ -92,7 +95,7 @@ namespace perideal
 
   template <int dim>
   EquilibriumStep
-  ControlledNewton<dim>::advance(const double amount, const Progress &progress, const unsigned int patience)
+  ControlledNewton<dim>::advance(const double amount, const Progress &progress, const Patience &patience)
   {
     this->start_in_place();
     this->increment              = 0.;
@@ -158,8 +161,19 @@ namespace perideal
             half_of    = residual;
             since_half = 0;
           }
-        if (since_tenth++ == this->controls.max_iterations || since_half++ == patience)
-          return result;
+        if (since_tenth++ == this->controls.max_iterations || since_half++ == patience.iterations)
+          {
+            if (!softens || !patience.may_jump ||
+                result.iterations > most_in_jump * this->controls.max_iterations)
+              return result;
+            // There is no equilibrium nearby: a part of the crack jumps.
+            if (this->extend_bonds() && !with_cells)
+              with_cells = Start{displacement, now};
+            result.broken += this->judge(external);
+            n_secants = endless;
+            begin_anew();
+            tenth_of = half_of;
+          }
         ++result.iterations;
         if (n_secants > 0)
           --n_secants;

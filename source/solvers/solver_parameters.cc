@@ -41,7 +41,7 @@ namespace perideal
       "Step halvings",
       step_halvings,
       "Times that a load step of quasi static that fails is halved, or a part of it that fails again; 0: it "
-      "fails at once",
+      "fails at once; where bonds soften under Control other than loads, the path jumps instead",
       Integer(0, 30));
     prm.add_parameter(
       "Linear solver",

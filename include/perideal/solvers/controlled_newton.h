@@ -28,7 +28,9 @@ namespace perideal
    * iteration; then the tangent, which finishes. Where a gauge is controlled, the tangent leads there from
    * the start: the notched beam takes 138 iterations, and 724 by secants first. Where the tangent does not
    * lead on, since bonds change between softening, unloading and closing, some more secants do. No iterate
-   * leaves a trace in the bonds: they are judged at the equilibrium.
+   * leaves a trace in the bonds, which are judged at the equilibrium, but in attempts that may jump: where
+   * the residual falls no more, what has softened by then stays so, and secants lead on. What is left of the
+   * bonds only falls then, so that they come to an equilibrium.
    *
    * Steps of dissipated energy begin along the motion of the step before, moved with the fronts of the cracks
    * (CrackFronts) where that leaves much less of the residual than the same motion in place: cracks that go
@@ -46,7 +48,14 @@ namespace perideal
     /// Reads what is controlled off a displacement [m]. Collective.
     using Gauge = std::function<double(const NodalVector &)>;
 
-    static constexpr unsigned int endless = std::numeric_limits<unsigned int>::max();
+    /// How long an attempt goes on whose residual falls no more.
+    struct Patience
+    {
+      /// Iterations in which the residual has to fall by half.
+      unsigned int iterations = std::numeric_limits<unsigned int>::max();
+      /// Whether what has softened by then stays so for good, where bonds soften; else the attempt fails.
+      bool may_jump = false;
+    };
 
     /// The controlled quantity and what the loads are.
     struct Control
@@ -70,9 +79,7 @@ namespace perideal
 
     /// Goes on from the last equilibrium to one at which the controlled quantity has grown by an amount. A
     /// failure is reported, not thrown. Collective.
-    /// @param patience iterations in which the residual has to fall by half
-    EquilibriumStep
-    advance(const double amount, const Progress &progress, const unsigned int patience = endless);
+    EquilibriumStep advance(const double amount, const Progress &progress, const Patience &patience = {});
 
     /// Goes on from the last equilibrium to one at a time, if it can without a jump. Collective.
     EquilibriumStep load(const double time, const Progress &progress);
