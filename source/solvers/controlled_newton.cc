@@ -170,6 +170,7 @@ namespace perideal
             if (this->extend_bonds() && !with_cells)
               with_cells = Start{displacement, now};
             result.broken += this->judge(external);
+            this->compute_residual(external);
             n_secants = endless;
             begin_anew();
             tenth_of = half_of;
