@@ -176,8 +176,7 @@ namespace perideal
           }
         if (is_restart && mesh_is_due())
           return StepsEnd::mesh_changes;
-        if (!problem.loading.supports->hold_nodes())
-          initial.move_faces(problem, *problem.loading.supports->face_values(), *dynamics);
+        initial.move_supports(problem, this->mesh_has_changed, *dynamics);
         apply_forces();
         const bool        loads_change = problem.loading.loads.forces_depend_on_time();
         const auto        interval     = problem.parameters.checkpoints.steps;

@@ -108,6 +108,25 @@ namespace perideal
   }
 
   template <int dim>
+  void InitialMotion<dim>::move_supports(const Problem<dim>    &problem,
+                                         const bool             mesh_has_changed,
+                                         ExplicitDynamics<dim> &dynamics) const
+  {
+    if (!problem.loading.supports->hold_nodes())
+      move_faces(problem, *problem.loading.supports->face_values(), dynamics);
+    else if (mesh_has_changed)
+      {
+        NodalVector start(dynamics.displacement.get_partitioner());
+        for (const auto &entry : problem.loading.supports->held().entries())
+          if (const auto &function = displacement[entry.component]; function.is_present())
+            start.local_element(dim * entry.node + entry.component) = function.value(entry.point, 0.);
+        if (displaces())
+          hold(problem, start);
+        dynamics.move_held_nodes(start);
+      }
+  }
+
+  template <int dim>
   void InitialMotion<dim>::move_faces(const Problem<dim>    &problem,
                                       FaceValues<dim>       &values,
                                       ExplicitDynamics<dim> &dynamics) const

@@ -24,5 +24,6 @@ perideal_room(mesh
     plate_with_hole_grid.cc
     point_location.cc
     read_gmsh.cc
+    reentrant_corners.cc
     run_gmsh.cc
 )

@@ -3,6 +3,7 @@
 #include <perideal/mesh/local_refinement.h>
 #include <perideal/problem/bond_limits.h>
 #include <perideal/problem/mesh_need.h>
+#include <perideal/problem/strain_at_corners.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -228,7 +229,7 @@ namespace perideal
         std::map<dealii::types::material_id, double> from;
         for (const auto id : problem.body.mesh->material_ids)
           from[id] = refines_from(problem.body, id);
-        const std::vector<double> utilisation = problem.force->utilisation();
+        const std::vector<double> utilisation = utilisation_in_smallest_cells(problem);
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
             is_quiet[i]    = utilisation[i] < adaptation.coarsen_below;

@@ -31,5 +31,6 @@ perideal_room(problem
     problem.cc
     run.cc
     scene_parameters.cc
+    strain_at_corners.cc
     vertex_displacement.cc
 )

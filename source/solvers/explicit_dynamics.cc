@@ -73,6 +73,26 @@ namespace perideal
   }
 
   template <int dim>
+  void ExplicitDynamics<dim>::move_held_nodes(const NodalVector &start)
+  {
+    NodalVector                      place   = start;
+    const std::vector<std::uint8_t> &is_held = held.nodes.mask();
+    const auto                       visit   = [&](const auto &move) {
+      for (std::size_t k = 0; k < is_held.size(); ++k)
+        if (is_held[k])
+          move(k);
+    };
+    for (std::uint64_t step = 0; step < n_steps; ++step)
+      {
+        held.nodes.set_velocities(loads, step * scheme.time_step, scheme.time_step, place, velocity);
+        visit([&](const std::size_t k) {
+          place.local_element(k) += scheme.time_step * velocity.local_element(k);
+        });
+      }
+    visit([&](const std::size_t k) { displacement.local_element(k) = place.local_element(k); });
+  }
+
+  template <int dim>
   void ExplicitDynamics<dim>::work_of_faces()
   {
     held.faces->prepare_step(loads, time(), scheme.time_step);

@@ -21,15 +21,20 @@ namespace perideal
     /// and not where a velocity takes them, start there.
     void set(const Problem<dim> &problem, ExplicitDynamics<dim> &dynamics) const;
 
-    /// Hands prescribed values at faces to the dynamics: without an initial displacement from zero, else
-    /// from their conditions at t = 0, or with it where these give a velocity.
-    void
-    move_faces(const Problem<dim> &problem, FaceValues<dim> &values, ExplicitDynamics<dim> &dynamics) const;
+    /// Moves prescribed values at faces, and held nodes of a changed mesh, to where they are at the present
+    /// time of the dynamics: without an initial displacement from zero, else from their conditions at t = 0,
+    /// or with it where these give a velocity.
+    void move_supports(const Problem<dim>    &problem,
+                       const bool             mesh_has_changed,
+                       ExplicitDynamics<dim> &dynamics) const;
 
   private:
     using Functions = std::array<SpaceTimeFunction<dim>, dim>;
 
     bool displaces() const;
+
+    void
+    move_faces(const Problem<dim> &problem, FaceValues<dim> &values, ExplicitDynamics<dim> &dynamics) const;
 
     /// Puts held nodes where conditions say.
     void hold(const Problem<dim> &problem, NodalVector &displacement) const;

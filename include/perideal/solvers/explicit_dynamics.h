@@ -78,6 +78,11 @@ namespace perideal
     /// @param start where they are at t = 0 [m], by entry
     void move_faces(FaceValues<dim> &values, const std::vector<dealii::Tensor<1, dim>> &start);
 
+    /// Moves held nodes of a changed mesh to where they are at the present time: what was carried to them is
+    /// where those of other cells are held.
+    /// @param start where they are at t = 0 [m], by component of the owned nodes
+    void move_held_nodes(const NodalVector &start);
+
     /// Forces, velocities of the next half step and energies at the present time;
     /// to be followed by advance(). Collective.
     /// @param external force of the loads [N]
