@@ -2,6 +2,7 @@
 #include <perideal/base/instantiate.h>
 #include <perideal/drivers/mesh_adaptation.h>
 #include <perideal/problem/present_state.h>
+#include <perideal/problem/strain_at_corners.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,10 +25,18 @@ namespace perideal
   }
 
   template <int dim>
+  void MeshAdaptation<dim>::look(const double time)
+  {
+    if (exponents.empty())
+      exponents = singular_exponents(problem.body);
+    change.need = std::make_unique<MeshNeed<dim>>(problem, time, needed_before, exponents);
+  }
+
+  template <int dim>
   void MeshAdaptation<dim>::look_at_first_mesh()
   {
     const Timings::Scope scope(problem.run.timings, "adaptation");
-    change.need = std::make_unique<MeshNeed<dim>>(problem, 0., needed_before);
+    look(0.);
     change.state =
       std::make_unique<CarriedState<dim>>(problem, Checkpoint(), nodes_of_state(problem), *change.need);
   }
@@ -67,7 +76,7 @@ namespace perideal
     if (!problem.parameters.adaptation.is_by_need())
       return false;
     const Timings::Scope scope(problem.run.timings, "adaptation");
-    change.need = std::make_unique<MeshNeed<dim>>(problem, time, needed_before);
+    look(time);
     if (has_urgent_cells())
       {
         const auto before = std::exchange(needed_before, change.need->needs_small);

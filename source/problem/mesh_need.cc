@@ -205,9 +205,10 @@ namespace perideal
   } // namespace
 
   template <int dim>
-  MeshNeed<dim>::MeshNeed(const Problem<dim>      &problem,
-                          const double             time,
-                          const std::vector<bool> &needed_before)
+  MeshNeed<dim>::MeshNeed(const Problem<dim>        &problem,
+                          const double               time,
+                          const std::vector<bool>   &needed_before,
+                          const std::vector<double> &exponents)
     : where(problem.parameters.adaptation.where, "Adaptation/Refine where")
     , time(time)
     , levels(problem.parameters.adaptation.levels)
@@ -229,7 +230,7 @@ namespace perideal
         std::map<dealii::types::material_id, double> from;
         for (const auto id : problem.body.mesh->material_ids)
           from[id] = refines_from(problem.body, id);
-        const std::vector<double> utilisation = utilisation_in_smallest_cells(problem);
+        const std::vector<double> utilisation = utilisation_in_smallest_cells(problem, exponents);
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
             is_quiet[i]    = utilisation[i] < adaptation.coarsen_below;

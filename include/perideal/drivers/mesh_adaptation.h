@@ -69,11 +69,15 @@ namespace perideal
     MeshChange<dim> change;
 
   private:
+    /// Finds where the mesh is to be finer at a time; needs the nodes. Collective.
+    void look(const double time);
     bool has_urgent_cells() const;
 
     Problem<dim> &problem;
     /// Owned nodes that needed small cells when the mesh changed last; none at first.
     std::vector<bool> needed_before;
+    /// singular_exponents(), of the first look on.
+    std::vector<double> exponents;
   };
 } // namespace perideal
 

@@ -27,7 +27,11 @@ namespace perideal
     /// Looks at a problem with nodes and, where it has one, at its force. Places that moved since the mesh
     /// changed last go on so: small cells also lie where they are to come to. Collective.
     /// @param needed_before owned nodes that needed small cells then; none of any rank: nothing is known
-    MeshNeed(const Problem<dim> &problem, const double time, const std::vector<bool> &needed_before);
+    /// @param exponents singular_exponents() of its body
+    MeshNeed(const Problem<dim>        &problem,
+             const double               time,
+             const std::vector<bool>   &needed_before,
+             const std::vector<double> &exponents);
 
     /// Whether a cell lies where cells are to be halved so often at least: within the reach of a place that
     /// needs small cells, or so near to it that no family meets three sizes of cells, which would make some

@@ -8,12 +8,19 @@
 
 namespace perideal
 {
-  /// Returns BondForce::utilisation() of a problem with a force, within a horizon of re-entrant corners as it
-  /// will be in the smallest cells. The strain goes with r^-p (singular_exponent()), the smallest cells come
-  /// nearer to the corner, and limits of bonds are those of the smallest cells in all: so large cells of
-  /// which bonds are far below their limits are to be halved where bonds of small ones would have failed.
+  /// Returns p of the strains r^-p around the re-entrant corners of a body (singular_exponent()): of owned
+  /// nodes within a horizon of one, of others 0.
   template <int dim>
-  std::vector<double> utilisation_in_smallest_cells(const Problem<dim> &problem);
+  std::vector<double> singular_exponents(const Body<dim> &body);
+
+  /// Returns BondForce::utilisation() of a problem with a force, near re-entrant corners as it will be in the
+  /// smallest cells. These come nearer to the corner, and limits of bonds are those of the smallest cells in
+  /// all: so large cells of which bonds are far below their limits are to be halved where bonds of small ones
+  /// would have failed.
+  /// @param exponents singular_exponents()
+  template <int dim>
+  std::vector<double> utilisation_in_smallest_cells(const Problem<dim>        &problem,
+                                                    const std::vector<double> &exponents);
 } // namespace perideal
 
 #endif
