@@ -28,7 +28,7 @@ namespace perideal
   void MeshAdaptation<dim>::look(const double time)
   {
     if (exponents.empty())
-      exponents = singular_exponents(problem.body);
+      exponents = singular_exponents(problem);
     change.need = std::make_unique<MeshNeed<dim>>(problem, time, needed_before, exponents);
   }
 

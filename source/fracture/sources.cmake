@@ -11,4 +11,5 @@ perideal_room(fracture
     floating_nodes.cc
     fragments.cc
     no_fail_zones.cc
+    singular_exponents.cc
 )

@@ -6,6 +6,7 @@ perideal_room(mesh
     abaqus_lines.cc
     abaqus_to_gmsh.cc
     adaptation.cc
+    boundary_corners.cc
     create_mesh.cc
     generators.cc
     gmsh_elements.cc
@@ -24,6 +25,5 @@ perideal_room(mesh
     plate_with_hole_grid.cc
     point_location.cc
     read_gmsh.cc
-    reentrant_corners.cc
     run_gmsh.cc
 )

@@ -27,7 +27,7 @@ namespace perideal
     /// Looks at a problem with nodes and, where it has one, at its force. Places that moved since the mesh
     /// changed last go on so: small cells also lie where they are to come to. Collective.
     /// @param needed_before owned nodes that needed small cells then; none of any rank: nothing is known
-    /// @param exponents singular_exponents() of its body
+    /// @param exponents singular_exponents()
     MeshNeed(const Problem<dim>        &problem,
              const double               time,
              const std::vector<bool>   &needed_before,
