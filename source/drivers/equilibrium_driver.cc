@@ -4,8 +4,8 @@
 #include <perideal/base/stop_request.h>
 #include <perideal/drivers/create_drivers.h>
 #include <perideal/drivers/failed_step.h>
-#include <perideal/drivers/heating.h>
 #include <perideal/drivers/load_control.h>
+#include <perideal/drivers/load_steps.h>
 #include <perideal/drivers/tangent_system.h>
 #include <perideal/output/progress.h>
 #include <perideal/output/summary.h>
@@ -31,7 +31,6 @@ namespace perideal
       explicit EquilibriumDriver(Problem<dim> &problem)
         : Driver<dim>(problem, kind_of(problem.parameters.solver))
         , solver(problem.parameters.solver)
-        , heating(problem)
       {
       }
 
@@ -97,21 +96,25 @@ namespace perideal
         controls.bonds_break    = can_break(problem.parameters);
         controls.max_iterations = solver.is_quasi_static() ? solver.newton_iterations : solver.max_iterations;
         Loading<dim> &loading   = problem.loading;
-        if (!solver.is_quasi_static())
+        if (solver.is_controlled())
           {
-            path = std::make_unique<DynamicRelaxation<dim>>(
-              *problem.force, *problem.system, loading.supports->held(), loading.loads, controls);
+            auto made  = tangent->create_controlled_newton(LoadControl<dim>::control_of(problem), controls);
+            controlled = made.get();
+            path       = std::move(made);
+            control =
+              std::make_unique<LoadControl<dim>>(problem, *controlled, this->adaptation.finest_cell());
             return;
           }
-        if (!solver.is_controlled())
-          {
-            path = tangent->create_newton(controls);
-            return;
-          }
-        auto made  = tangent->create_controlled_newton(LoadControl<dim>::control_of(problem), controls);
-        controlled = made.get();
-        path       = std::move(made);
-        control    = std::make_unique<LoadControl<dim>>(problem, *controlled, this->adaptation.finest_cell());
+        // A crack that needs no more load would run through large cells within one step.
+        controls.wants_mesh = [this] {
+          return steps->may_change_mesh() && this->adaptation.is_due_within(done, steps->time());
+        };
+        if (solver.is_quasi_static())
+          path = tangent->create_newton(controls);
+        else
+          path = std::make_unique<DynamicRelaxation<dim>>(
+            *problem.force, *problem.system, loading.supports->held(), loading.loads, controls);
+        steps = std::make_unique<LoadSteps<dim>>(problem, *path);
       }
 
       StepsEnd advance() override
@@ -121,11 +124,10 @@ namespace perideal
           problem.run.screen.get_stream(), problem.run.is_watched, "load steps");
         make_path();
         path->register_state(problem.lasting);
-        if (problem.loading.expansion)
-          problem.lasting.add_value("work of heating", work_of_heating);
         if (control)
           control->register_state(problem.lasting);
-        heating.begin_cold();
+        else
+          steps->register_state(problem.lasting);
         if (resumed)
           {
             resume();
@@ -136,7 +138,8 @@ namespace perideal
         const StopRequest  stop;
         while (!is_done())
           {
-            take_load_step(done + 1);
+            if (!take_load_step(done + 1))
+              return StepsEnd::mesh_changes;
             ++done;
             const bool stops  = stop.is_there(problem.run.communicator);
             const bool is_due = stops || (interval > 0 && done % interval == 0);
@@ -144,75 +147,71 @@ namespace perideal
               this->save_checkpoint(done, time());
             if (stops && !is_done())
               return StepsEnd::stopped;
-            if (!is_done() && this->adaptation.is_due(done, time()))
+            if (!is_done() && !looks_within_steps() && this->adaptation.is_due(done, time()))
               return StepsEnd::mesh_changes;
           }
         return StepsEnd::done;
       }
 
-      double time_of(const std::uint64_t number) const
+      /// Whether the path asks for another mesh itself.
+      bool looks_within_steps() const
       {
-        return static_cast<double>(number) / solver.load_steps;
+        return steps && can_break(problem.parameters) && !problem.force->softening_bonds().softens();
       }
       /// At the last equilibrium.
-      double time() const { return control ? controlled->time() : time_of(done); }
-      bool   is_done() const { return control ? control->is_done() : done == solver.n_load_steps(); }
+      double time() const { return control ? controlled->time() : steps->time(); }
+      bool   is_done() const { return is_done_after(done); }
+      bool   is_done_after(const unsigned int number) const
+      {
+        return control ? control->is_done() : number == solver.n_load_steps();
+      }
 
-      void take_load_step(const unsigned int number)
+      /// Returns false where the mesh is to change first.
+      bool take_load_step(const unsigned int number)
       {
         Step<dim> step;
         step.number                             = number;
         recorders->summary()["solver"]["steps"] = number;
-        const double reached                    = control ? follow(step) : search(step);
-        problem.state.unknowns                  = path->displacement;
+        step.search                             = control ? follow(step) : search(step);
+        if (step.search.wants_mesh)
+          {
+            this->adaptation.keep(done, time());
+            return false;
+          }
+        step.time              = time();
+        step.is_last           = is_done_after(number);
+        problem.state.unknowns = path->displacement;
         problem.store_displacement();
         measure(step);
         recorders->observe(step);
         recorders->record(step);
         if (!step.search.converged)
-          throw ComputationError(
-            describe_failed_step(solver, number, reached, step.search, path->n_broken()));
+          throw ComputationError(describe_failed_step(solver, number, time(), step.search, path->n_broken()));
         if (step.is_last)
           recorders->conclude(step);
         recorders->write_fields(step);
+        return true;
       }
 
-      /// Goes to the end of a load step, after a failure in halves. Returns the time reached or sought last.
-      double search(Step<dim> &step)
+      EquilibriumStep search(Step<dim> &step)
       {
-        const double end  = time_of(step.number);
-        double       time = time_of(step.number - 1), part = end - time;
-        step.time    = end;
-        step.is_last = step.number == solver.n_load_steps();
-        while (time < end)
-          {
-            const double    next = std::min(end, time + part) > end - 1e-3 * part ? end : time + part;
-            EquilibriumStep now  = find_equilibrium(step.number, time, next);
-            now.add_before(step.search);
-            step.search = now;
-            if (now.converged)
-              time = next;
-            else if (step.halvings == solver.step_halvings || !solver.is_quasi_static())
-              break;
-            else
-              {
-                ++step.halvings;
-                part *= 0.5;
-                path->restore();
-                heating.go_back(path->displacement);
-                problem.run.screen << "load step " << step.number << " from t = " << short_number(time)
-                                   << " is halved" << std::endl;
-              }
-          }
-        return std::min(end, time + part);
+        const Timings::Scope  scope(problem.run.timings, "solve");
+        const EquilibriumStep result = steps->next(
+          step.number,
+          step.halvings,
+          [&](const std::string &what, const double t, const unsigned int iteration, const double r) {
+            show(what, t / steps->end_of(solver.n_load_steps()), iteration, r);
+          });
+        progress->clear();
+        return result;
       }
 
-      /// Goes on by what is controlled. Returns the time reached.
-      double follow(Step<dim> &step)
+      /// Goes on by what is controlled.
+      EquilibriumStep follow(Step<dim> &step)
       {
-        const Timings::Scope scope(problem.run.timings, "solve");
-        std::string          what;
-        step.search = control->next(
+        const Timings::Scope  scope(problem.run.timings, "solve");
+        std::string           what;
+        const EquilibriumStep result = control->next(
           step.halvings,
           [&](const std::string &attempt) {
             what = "load step " + std::to_string(step.number) +
@@ -223,9 +222,7 @@ namespace perideal
             show(what, control->share_done(), iteration, r);
           });
         progress->clear();
-        step.time    = controlled->time();
-        step.is_last = control->is_done();
-        return step.time;
+        return result;
       }
 
       /// Shows an iteration: on a terminal by a bar, else, of Newton's method, by a line.
@@ -240,43 +237,6 @@ namespace perideal
           problem.run.screen << text << std::endl;
       }
 
-      /// Goes on from the equilibrium of one time to that of another; as often as bonds take the place of
-      /// cells on the way, for loads act on nodes there.
-      EquilibriumStep find_equilibrium(const std::uint64_t number, const double from, const double time)
-      {
-        const Timings::Scope scope(problem.run.timings, "solve");
-        EquilibriumStep      result;
-        unsigned int         version = 0;
-        do
-          {
-            version             = problem.force->version();
-            EquilibriumStep now = approach_equilibrium(number, from, time);
-            now.add_before(result);
-            result = now;
-          }
-        while (result.converged && problem.force->version() != version);
-        return result;
-      }
-
-      EquilibriumStep approach_equilibrium(const std::uint64_t number, const double from, const double time)
-      {
-        const std::string what = "load step " + std::to_string(number) + " of " +
-                                 std::to_string(solver.n_load_steps()) + ", " +
-                                 std::to_string(path->n_broken()) + " broken bonds";
-        const double end = time_of(solver.n_load_steps());
-        heating.remember();
-        apply_loads(time);
-        heating.take_loads();
-        EquilibriumStep result =
-          path->step(problem.state.external_force, time, [&](const unsigned int iteration, const double r) {
-            show(what, (from + (time - from) * share_of_iteration(r, solver.tolerance)) / end, iteration, r);
-          });
-        progress->clear();
-        if (result.converged)
-          work_of_heating += heating.work();
-        return result;
-      }
-
       void apply_loads(const double time)
       {
         problem.apply_loads(time);
@@ -287,7 +247,7 @@ namespace perideal
       void measure(Step<dim> &step)
       {
         step.energy = path->energy();
-        step.energy.external += work_of_heating;
+        step.energy.external += steps ? steps->work() : 0.;
         step.energy_error = this->energy_error(step.energy, step.energy.strain);
         step.n_broken     = path->n_broken();
         step.newly_broken = step.search.broken;
@@ -299,6 +259,8 @@ namespace perideal
       {
         done              = resumed->template get<unsigned int>("step");
         const double time = resumed->template get<double>("time");
+        if (steps)
+          steps->go_on_from(time);
         {
           const Timings::Scope scope(problem.run.timings, "setup");
           this->resume_checkpoint();
@@ -332,11 +294,11 @@ namespace perideal
       /// Where the loads are an unknown: the path, and its steps.
       ControlledNewton<dim>            *controlled = nullptr;
       std::unique_ptr<LoadControl<dim>> control;
-      std::unique_ptr<ProgressBar>      progress;
-      nlohmann::ordered_json            solver_report;
-      unsigned int                      done = 0; // load steps
-      Heating<dim>                      heating;
-      double                            work_of_heating = 0; // [J]
+      /// Else its load steps.
+      std::unique_ptr<LoadSteps<dim>> steps;
+      std::unique_ptr<ProgressBar>    progress;
+      nlohmann::ordered_json          solver_report;
+      unsigned int                    done = 0; // load steps
     };
   } // namespace
 

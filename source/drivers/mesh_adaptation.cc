@@ -73,6 +73,16 @@ namespace perideal
   template <int dim>
   bool MeshAdaptation<dim>::is_due(const std::uint64_t step, const double time)
   {
+    const Timings::Scope scope(problem.run.timings, "adaptation");
+    if (!is_due_within(step, time))
+      return false;
+    change.state->fit(problem, *change.need);
+    return true;
+  }
+
+  template <int dim>
+  bool MeshAdaptation<dim>::is_due_within(const std::uint64_t step, const double time)
+  {
     if (!problem.parameters.adaptation.is_by_need())
       return false;
     const Timings::Scope scope(problem.run.timings, "adaptation");
@@ -80,22 +90,33 @@ namespace perideal
     if (has_urgent_cells())
       {
         const auto before = std::exchange(needed_before, change.need->needs_small);
-        change.state      = std::make_unique<CarriedState<dim>>(
-          problem, state_after(problem, step, time), nodes_of_state(problem), *change.need);
+        carry(step, time);
         if (change.state->has_failed_larger_cells(*problem.body.mesh, problem.parameters.adaptation.levels))
           problem.run.warn(
             "bonds failed in cells that were not yet as small as Adaptation/Levels lets them be, and take "
             "more "
             "energy than they should: take a smaller Adaptation/Refine from, a larger Reach, shorter steps");
         if (change.state->is_urgent(*problem.body.mesh, *change.need, problem.parameters.adaptation.levels))
-          {
-            change.state->fit(problem, *change.need);
-            return true;
-          }
+          return true;
         needed_before = before;
       }
     change = {};
     return false;
+  }
+
+  template <int dim>
+  void MeshAdaptation<dim>::keep(const std::uint64_t step, const double time)
+  {
+    const Timings::Scope scope(problem.run.timings, "adaptation");
+    carry(step, time);
+    change.state->fit(problem, *change.need);
+  }
+
+  template <int dim>
+  void MeshAdaptation<dim>::carry(const std::uint64_t step, const double time)
+  {
+    change.state = std::make_unique<CarriedState<dim>>(
+      problem, state_after(problem, step, time), nodes_of_state(problem), *change.need);
   }
 
   template <int dim>

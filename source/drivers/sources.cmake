@@ -14,6 +14,7 @@ perideal_room(drivers
     heating.cc
     initial_motion.cc
     load_control.cc
+    load_steps.cc
     mesh_adaptation.cc
     motion_check.cc
     motion_forces.cc

@@ -65,6 +65,14 @@ namespace perideal
     unsigned int    since_break = 0;
     const bool      can_break   = controls.bonds_break && !breaks.wait;
     bool            judged      = !can_break;
+    const auto      end_step    = [&](const Norms &norms) {
+      last.note(norms);
+      balance(external, force, bonds.strain_energy());
+      if (!breaks.wait)
+        last.note_step(increment, time);
+      result.converged = true;
+      return result;
+    };
     compute_forces();
     while (true)
       {
@@ -94,6 +102,11 @@ namespace perideal
                 since_break = 0;
                 continue;
               }
+            if (!judged && controls.wants_mesh && !bonds.softening_bonds().softens() && controls.wants_mesh())
+              {
+                result.wants_mesh = true;
+                return end_step(norms);
+              }
             const GlobalIndex now = judge(external);
             result.broken += now;
             judged = now == 0;
@@ -105,14 +118,7 @@ namespace perideal
               }
           }
         if (at_rest)
-          {
-            last.note(norms);
-            balance(external, force, bonds.strain_energy());
-            if (!breaks.wait)
-              last.note_step(increment, time);
-            result.converged = true;
-            return result;
-          }
+          return end_step(norms);
         if (since_break == controls.max_iterations)
           return result;
         if (!iterate(external, result))

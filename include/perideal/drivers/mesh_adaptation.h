@@ -45,6 +45,13 @@ namespace perideal
     /// Whether the mesh is to change after a step, at a time; keeps what goes on then. Collective.
     bool is_due(const std::uint64_t step, const double time);
 
+    /// Whether it is to change within the step after this one, at a time; keep() follows when the step has
+    /// ended for that. Collective.
+    bool is_due_within(const std::uint64_t step, const double time);
+
+    /// Keeps what goes on as the state is by now. Collective.
+    void keep(const std::uint64_t step, const double time);
+
     /// Whether a motion looks at its mesh after a step.
     bool looks_at(const std::uint64_t step) const
     {
@@ -72,6 +79,8 @@ namespace perideal
     /// Finds where the mesh is to be finer at a time; needs the nodes. Collective.
     void look(const double time);
     bool has_urgent_cells() const;
+    /// Takes the state after a step. Collective.
+    void carry(const std::uint64_t step, const double time);
 
     Problem<dim> &problem;
     /// Owned nodes that needed small cells when the mesh changed last; none at first.

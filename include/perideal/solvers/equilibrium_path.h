@@ -30,6 +30,8 @@ namespace perideal
     std::vector<double> residuals;
     /// Why it went no further, where the solver knows; else empty.
     std::string problem;
+    /// Whether it stopped at an equilibrium whose bonds are to be judged on another mesh.
+    bool wants_mesh = false;
 
     /// Counts the work of earlier attempts and parts of the step to this one.
     void add_before(const EquilibriumStep &earlier)
@@ -68,6 +70,9 @@ namespace perideal
       unsigned int max_iterations = 5000;
       /// Whether bonds are judged.
       bool bonds_break = false;
+      /// Whether bonds that do not soften are to be judged on another mesh, asked at each equilibrium before
+      /// they are, on all ranks; where it returns true, the step ends. None: never.
+      std::function<bool()> wants_mesh = {};
     };
 
     virtual ~EquilibriumPath() = default;

@@ -273,3 +273,41 @@ TEST(DynamicRelaxation, BreaksWhereTheBodyIsWeakest)
       EXPECT_NEAR(energy.dissipated / energy.external, 1., held.weights->symmetric ? 1e-3 : 5e-2);
     }
 }
+
+/// A step that ends before bonds break, since another mesh is wanted there, leaves them whole; what goes on
+/// from there breaks what breaks without that.
+TEST(DynamicRelaxation, EndsBeforeBondsBreakWhereAnotherMeshIsWanted)
+{
+  const auto  mesh = test::make_box<2>({20, 5}, {2., 0.5}, 0.);
+  HeldBody<2> held(*mesh, variants.front(), {condition("0", {"0", "0"}), condition("1", {"0.03*t", "0"})});
+  const auto &position = held.body.families->position;
+  held.bonds->set_critical_stretch([&](const LocalIndex i, const LocalIndex j) {
+    return (position[i][0] < 1.) != (position[j][0] < 1.) ? 0.01 : 0.1;
+  });
+  bool                  wants    = false;
+  unsigned int          n_asked  = 0;
+  HeldBody<2>::Controls controls = {1e-8, 5000, true};
+  controls.wants_mesh            = [&] {
+    ++n_asked;
+    return wants;
+  };
+  auto relaxation = held.relaxation(controls);
+  ASSERT_TRUE(relaxation.step(held.load, 0.2, no_progress).converged);
+  EXPECT_GT(n_asked, 0u);
+  EXPECT_EQ(relaxation.n_broken(), 0u);
+
+  wants                      = true;
+  const EquilibriumStep ends = relaxation.step(held.load, 0.9, no_progress);
+  EXPECT_TRUE(ends.converged && ends.wants_mesh);
+  EXPECT_EQ(ends.broken, 0u);
+  EXPECT_EQ(relaxation.n_broken(), 0u);
+  const EnergyBudget before = relaxation.energy();
+  EXPECT_NEAR(before.strain / before.external, 1., 1e-2);
+  EXPECT_EQ(before.dissipated, 0.);
+
+  wants                         = false;
+  const EquilibriumStep goes_on = relaxation.step(held.load, 0.9, no_progress);
+  EXPECT_TRUE(goes_on.converged && !goes_on.wants_mesh);
+  EXPECT_GT(goes_on.broken, 0u);
+  EXPECT_NEAR(relaxation.energy().dissipated / before.external, 1., 5e-2);
+}
