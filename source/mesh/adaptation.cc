@@ -46,8 +46,9 @@ namespace perideal
     prm.add_parameter("Refine from",
                       refine_from,
                       "Strain over the one at which bonds begin to fail [-] from which cells are halved; of "
-                      "bonds that soften 1 and the share of their largest force that they have lost; 0: 0.8, "
-                      "in the consistent form 1.2 where bonds soften from a tensile strength on",
+                      "bonds that soften 1 and the share of their largest force that they have lost; 0: 0.8; "
+                      "in the consistent form 1.2 where bonds soften from a tensile strength on, else 0.5 of "
+                      "cells larger than the smallest, before bonds take their place",
                       dealii::Patterns::Double(0.));
     prm.add_parameter("Coarsen below",
                       coarsen_below,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <perideal/base/instantiate.h>
 #include <perideal/mesh/local_refinement.h>
+#include <perideal/operators/force/zoned_force.h>
 #include <perideal/problem/bond_limits.h>
 #include <perideal/problem/mesh_need.h>
 #include <perideal/problem/strain_at_corners.h>
@@ -24,16 +25,26 @@ namespace perideal
     /// farther [-].
     constexpr double before_failure = 0.8, after_strength = 1.2;
 
+    /// From which utilisation on a node needs small cells around it: one of a cell that may be halved, or of
+    /// one of the smallest [-].
+    struct Thresholds
+    {
+      double of_large, of_smallest;
+    };
+
     template <int dim>
-    double refines_from(const Body<dim> &body, const dealii::types::material_id id)
+    Thresholds thresholds(const Body<dim> &body, const dealii::types::material_id id)
     {
       const SceneParameters &parameters = body.parameters;
       if (parameters.adaptation.refine_from > 0)
-        return parameters.adaptation.refine_from;
-      return parameters.model.is_consistent() && SofteningLaw(parameters.material.softening).softens() &&
-                 strain_of_strength(body, id).first > 0 ?
-               after_strength :
-               before_failure;
+        return {parameters.adaptation.refine_from, parameters.adaptation.refine_from};
+      if (!parameters.model.is_consistent())
+        return {before_failure, before_failure};
+      if (softens_from_strength(body, id))
+        return {after_strength, after_strength};
+      // Bonds of large cells would take the place of these: a cantilever whose clamped cells opened so was a
+      // tenth softer there, and cracked late and elsewhere.
+      return {std::min(before_failure, ZonedForce<dim>::near_to_breaking), before_failure};
     }
 
     template <int dim>
@@ -227,14 +238,15 @@ namespace perideal
     needs_small.assign(nodes.size(), false);
     if (problem.force)
       {
-        std::map<dealii::types::material_id, double> from;
+        std::map<dealii::types::material_id, Thresholds> from;
         for (const auto id : problem.body.mesh->material_ids)
-          from[id] = refines_from(problem.body, id);
+          from[id] = thresholds(problem.body, id);
         const std::vector<double> utilisation = utilisation_in_smallest_cells(problem, exponents);
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
-            is_quiet[i]    = utilisation[i] < adaptation.coarsen_below;
-            needs_small[i] = utilisation[i] >= from.at(nodes.material[i]);
+            const auto [of_large, of_smallest] = from.at(nodes.material[i]);
+            is_quiet[i]                        = utilisation[i] < adaptation.coarsen_below;
+            needs_small[i] = utilisation[i] >= (nodes.finest_share(i) < 1. ? of_large : of_smallest);
             if (needs_small[i])
               places.emplace_back(nodes.position[i], reach_of(i));
           }

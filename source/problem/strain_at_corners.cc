@@ -73,14 +73,11 @@ namespace perideal
     for (const BoundaryCorner<dim> &corner : boundary_corners(*problem.body.mesh))
       if (const double exponent = exponent_of(corner, problem); exponent > 0)
         corners.emplace_back(Edge(corner.ends.front(), corner.ends.back()), exponent);
-    const auto         all = dealii::pack_rtree(corners);
-    const SofteningLaw law(problem.parameters.material.softening);
-    const auto         softens = [&](const LocalIndex i) {
-      return law.softens() && strain_of_strength(problem.body, nodes.material[i]).first > 0;
-    };
+    const auto all = dealii::pack_rtree(corners);
     for (LocalIndex i = 0; i < nodes.size() && !corners.empty(); ++i)
       if (const auto nearest = all.qbegin(bgi::nearest(nodes.position[i], 1));
-          boost::geometry::distance(nodes.position[i], nearest->first) < nodes.horizon[i] && !softens(i))
+          boost::geometry::distance(nodes.position[i], nearest->first) < nodes.horizon[i] &&
+          !softens_from_strength(problem.body, nodes.material[i]))
         result[i] = nearest->second;
     return result;
   }

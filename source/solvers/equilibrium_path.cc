@@ -97,15 +97,15 @@ namespace perideal
                 result.problem = "the step dissipates more than it may";
                 return result;
               }
-            if (extend_bonds())
-              {
-                since_break = 0;
-                continue;
-              }
             if (!judged && controls.wants_mesh && !bonds.softening_bonds().softens() && controls.wants_mesh())
               {
                 result.wants_mesh = true;
                 return end_step(norms);
+              }
+            if (extend_bonds())
+              {
+                since_break = 0;
+                continue;
               }
             const GlobalIndex now = judge(external);
             result.broken += now;

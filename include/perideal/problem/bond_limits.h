@@ -15,6 +15,14 @@ namespace perideal
   template <int dim>
   std::pair<double, double> strain_of_strength(const Body<dim> &body, const dealii::types::material_id id);
 
+  /// Whether bonds of a material soften from its tensile strength on.
+  template <int dim>
+  bool softens_from_strength(const Body<dim> &body, const dealii::types::material_id id)
+  {
+    return SofteningLaw(body.parameters.material.softening).softens() &&
+           strain_of_strength(body, id).first > 0;
+  }
+
   /// Returns the strain at which bonds of a material and a horizon begin to fail [-], whether they are
   /// calibrated or not: by the strength, a stretch that is given or the published formula; infinity: never.
   template <int dim>

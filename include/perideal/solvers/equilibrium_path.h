@@ -70,8 +70,9 @@ namespace perideal
       unsigned int max_iterations = 5000;
       /// Whether bonds are judged.
       bool bonds_break = false;
-      /// Whether bonds that do not soften are to be judged on another mesh, asked at each equilibrium before
-      /// they are, on all ranks; where it returns true, the step ends. None: never.
+      /// Whether bonds that do not soften are to be judged on another mesh, asked on all ranks at each
+      /// equilibrium before they are, and before they take the place of cells; where it returns true, the
+      /// step ends. None: never.
       std::function<bool()> wants_mesh = {};
     };
 
