@@ -106,9 +106,11 @@ namespace perideal
             return;
           }
         // A crack that needs no more load would run through large cells within one step.
-        controls.wants_mesh = [this] {
-          return steps->may_change_mesh() && this->adaptation.is_due_within(done, steps->time());
-        };
+        if (problem.parameters.adaptation.is_by_need())
+          controls.wants_mesh = [this] {
+            const Timings::Scope part(problem.run.timings, "solve: adaptation");
+            return steps->may_change_mesh() && this->adaptation.is_due_within(done, steps->time());
+          };
         if (solver.is_quasi_static())
           path = tangent->create_newton(controls);
         else
@@ -131,7 +133,7 @@ namespace perideal
         if (resumed)
           {
             resume();
-            if (!this->mesh_has_changed && this->adaptation.is_due(done, time()))
+            if (!this->mesh_has_changed && !looks_within_steps() && this->adaptation.is_due(done, time()))
               return StepsEnd::mesh_changes;
           }
         const unsigned int interval = problem.parameters.checkpoints.steps;

@@ -85,7 +85,6 @@ namespace perideal
   {
     if (!problem.parameters.adaptation.is_by_need())
       return false;
-    const Timings::Scope scope(problem.run.timings, "adaptation");
     look(time);
     if (has_urgent_cells())
       {
