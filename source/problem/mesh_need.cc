@@ -245,7 +245,8 @@ namespace perideal
         for (LocalIndex i = 0; i < nodes.size(); ++i)
           {
             const auto [of_large, of_smallest] = from.at(nodes.material[i]);
-            is_quiet[i]                        = utilisation[i] < adaptation.coarsen_below;
+            // What is joined is not to be halved again at once.
+            is_quiet[i]    = utilisation[i] < std::min(adaptation.coarsen_below, of_large);
             needs_small[i] = utilisation[i] >= (nodes.finest_share(i) < 1. ? of_large : of_smallest);
             if (needs_small[i])
               places.emplace_back(nodes.position[i], reach_of(i));
