@@ -25,8 +25,7 @@ namespace perideal
     /// farther [-].
     constexpr double before_failure = 0.8, after_strength = 1.2;
 
-    /// From which utilisation on a node needs small cells around it: one of a cell that may be halved, or of
-    /// one of the smallest [-].
+    /// Utilisations from which small cells are needed: of cells that may be halved, of others [-].
     struct Thresholds
     {
       double of_large, of_smallest;
