@@ -73,6 +73,8 @@ namespace perideal
   template <int dim>
   bool MeshAdaptation<dim>::is_due(const std::uint64_t step, const double time)
   {
+    if (!problem.parameters.adaptation.is_by_need())
+      return false;
     const Timings::Scope scope(problem.run.timings, "adaptation");
     if (!is_due_within(step, time))
       return false;
@@ -83,8 +85,6 @@ namespace perideal
   template <int dim>
   bool MeshAdaptation<dim>::is_due_within(const std::uint64_t step, const double time)
   {
-    if (!problem.parameters.adaptation.is_by_need())
-      return false;
     look(time);
     if (has_urgent_cells())
       {

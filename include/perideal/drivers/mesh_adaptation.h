@@ -45,8 +45,8 @@ namespace perideal
     /// Whether the mesh is to change after a step, at a time; keeps what goes on then. Collective.
     bool is_due(const std::uint64_t step, const double time);
 
-    /// Whether it is to change within the step after this one, at a time; keep() follows when the step has
-    /// ended for that. Collective.
+    /// Whether it is to change within the step after this one, at a time, in a scene that adapts by need;
+    /// keep() follows when the step has ended for that. Collective.
     bool is_due_within(const std::uint64_t step, const double time);
 
     /// Keeps what goes on as the state is by now. Collective.
